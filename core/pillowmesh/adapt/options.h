@@ -1,0 +1,52 @@
+// What a run is asked to do. One struct for command, library and page; each field says unit, default and meaning.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string_view>
+
+#include "pillowmesh/mesh/status.h"
+
+namespace pillowmesh {
+
+/// When the paper's method relocates vertices.
+enum class Smoothing : std::uint8_t {
+  none,
+  end,      ///< once, after the last refinement (the paper's Figure 7 c)
+  between,  ///< after every refinement iteration as well (Figure 7 i)
+};
+
+struct AdaptOptions {
+  /// Metric length above which an edge is tagged. [Paper] section 4 step 1: about 2.
+  double threshold = 2.0;
+  Smoothing smoothing = Smoothing::end;
+  /// n > 1: refine to edges n times as long, then split every cell in n^Dim ("coarse refinement and dicing").
+  int dice = 1;
+  /// Cells across a layer at its seed: 1 as in the paper, 2 as Schneiders.
+  int thickness = 1;
+  /// Rings of cells added at the ends of each layer ("layers are augmented by their immediate neighbours").
+  int augment = 1;
+  /// Iterations of the paper's loop (steps 1 to 4) at the most.
+  int max_iterations = 30;
+  /// The run stops with a valid mesh before it would pass this many cells.
+  std::int64_t max_cells = 10'000'000;
+  /// Sweeps of the smoother at the most, each time that it runs.
+  int max_sweeps = 200;
+  /// Keep events for replay (adapt/trace.h). Costs memory proportional to what changes.
+  bool record = false;
+};
+
+/// Sets an option by its command-line name without dashes ("threshold", "smooth", "dice", ...).
+/// \return usage with the allowed values when name or value is wrong. The one place where names and values are parsed:
+/// command, page and permalinks all come here.
+Status set_option(AdaptOptions& options, std::string_view name, std::string_view value);
+
+/// Polled between operators.
+struct Context {
+  /// true: stop at the next safe place.
+  std::function<bool()> cancelled;
+  /// Share of the work believed done, 0 to 1, and what is being done.
+  std::function<void(double share, std::string_view activity)> progress;
+};
+
+}  // namespace pillowmesh

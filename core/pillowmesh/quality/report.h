@@ -1,0 +1,41 @@
+// The numbers that say how good a mesh is in a metric: one struct, one JSON schema, for command, library and page.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "pillowmesh/mesh/mesh.h"
+#include "pillowmesh/metric/field.h"
+#include "pillowmesh/quality/statistics.h"
+
+namespace pillowmesh {
+
+/// The fields of the report, in its order. Lengths are metric lengths; seconds are wall time.
+struct Report {
+  int dim = 0;
+  Index vertices = 0;
+  Index edges = 0;
+  Index cells = 0;
+  Statistics edge_length;          ///< share_in_range counts lengths in [1/sqrt 2, sqrt 2]
+  Statistics shape;                ///< the paper's eta, flat corner simplices
+  Statistics shape_integral;       ///< eta with V_K = integral of sqrt(det M)
+  double scaled_jacobian_min = 0.0;
+  double scaled_jacobian_mean = 0.0;
+  Index irregular_vertices = 0;    ///< inside: valence other than 4 (2D) or an irregular edge at it (3D)
+  double complexity = 0.0;         ///< integral of sqrt(det M): the ideal number of cells
+  bool valid = false;
+  std::string defect;              ///< the first defect's sentence when not valid
+  std::map<std::string, double> seconds;         ///< total, refine, smooth, ...
+  std::int64_t peak_memory_bytes = 0;            ///< 0 where the system does not tell
+  std::map<std::string, std::int64_t> operations;  ///< layers, iterations, relocations, ...
+};
+
+/// Measures `mesh` in `field`: everything but seconds, peak_memory_bytes and operations.
+template <int Dim>
+Report measure(const Mesh<Dim>& mesh, const MetricField<Dim>& field);
+
+/// The report as JSON text (two-space indent, keys as in docs/report.md).
+std::string to_json(const Report& report);
+
+}  // namespace pillowmesh
