@@ -1,0 +1,13 @@
+# One executable with all Catch2 suites; ctest runs its test cases one by one, so that a crash costs one test.
+file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS tests/core/*.cpp tests/paper/*.cpp tests/fuzz/*.cpp)
+find_package(Catch2 REQUIRED)
+include(Catch)
+
+add_executable(pillowmesh_tests ${test_sources})
+pillowmesh_compile_options(pillowmesh_tests)
+target_include_directories(pillowmesh_tests PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/tests)
+target_compile_definitions(pillowmesh_tests PRIVATE
+  PILLOWMESH_VERSION="${PROJECT_VERSION}"
+  PILLOWMESH_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/tests/data")
+target_link_libraries(pillowmesh_tests PRIVATE pillowmesh::core Catch2::Catch2)
+catch_discover_tests(pillowmesh_tests)
