@@ -8,22 +8,31 @@
 
 namespace pillowmesh {
 
-/// The boundary of the initial mesh, kept as the shape of the domain.
+/// The boundary of the initial mesh, kept as the shape of the domain. `points` are its boundary vertices.
 template <int Dim>
 struct Geometry {
+  static constexpr int facet_sides = 2 * (Dim - 1);
+
   std::vector<Point<Dim>> points;
-  /// Boundary facets, oriented as their cell sees them, and the patch of each.
+  /// Boundary facets in the order of Cell<Dim>::facet_corner of their cell, the sign that turns them outward, the patch.
   std::vector<FacetCorners<Dim>> facets;
+  std::vector<std::int8_t> sign;
   std::vector<PatchId> patch;
-  /// Neighbour facet across each side (2D: each end point; 3D: each edge, numbered as Cell<2> facets); kNone at the
-  /// ends of a patch.
-  std::vector<std::array<Index, 2 * (Dim - 1)>> neighbours;
+  /// Neighbour facet of the same patch across each side (2D: end point 0 or 1; 3D: facet of Cell<2>); kNone at the
+  /// ends of the patch.
+  std::vector<std::array<Index, facet_sides>> neighbours;
+
+  /// Feature edges, 3D only: where two patches meet. Chains of them between corners are curves.
+  std::vector<std::array<Index, 2>> segments;
+  std::vector<Index> curve;
+  std::vector<std::array<Index, 2>> segment_neighbours;
+  std::vector<std::array<PatchId, 2>> curve_patches;  ///< per curve: the lower patch number first
 };
 
 struct BoundaryOptions {
-  /// A vertex (2D) or an edge (3D) of the boundary is a corner or feature where the boundary turns by more than this
-  /// angle, in degrees, or where groups meet.
-  double corner_angle = 40.0;
+  /// A vertex (2D) or an edge (3D) of the boundary is a corner or feature where groups meet, or where the boundary
+  /// turns by an angle whose cosine is below this. The default is 40 degrees.
+  double corner_cosine = 0.7660444431189780;
 };
 
 /// Builds a mesh from what a reader found: drops unused vertices, finds neighbours, checks (see validate.h), splits

@@ -1,0 +1,38 @@
+// Corner Jacobians: the sign that decides whether a cell is inside out.
+#pragma once
+
+#include "pillowmesh/mesh/mesh.h"
+
+namespace pillowmesh {
+
+/// a x b in 2D, a . (b x c) in 3D, of the edge vectors out of a corner in axis order.
+inline double cross(const Point<2>& a, const Point<2>& b) { return a[0] * b[1] - a[1] * b[0]; }
+inline double triple(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/// Jacobian determinant of the multilinear map at corner k of a cell whose corner i is at position(i). Unit: length^Dim.
+template <int Dim, class Position>
+double corner_jacobian(int k, Position&& position) {
+  const Point<Dim> o = position(k);
+  std::array<Point<Dim>, Dim> e;
+  for (int d = 0; d < Dim; ++d) e[d] = position(k ^ (1 << d)) - o;
+  if constexpr (Dim == 2)
+    return Cell<2>::corner_sign(k) * cross(e[0], e[1]);
+  else
+    return Cell<3>::corner_sign(k) * triple(e[0], e[1], e[2]);
+}
+
+/// The smallest of the corner Jacobians of cell c. Positive in every valid mesh.
+template <int Dim>
+double min_corner_jacobian(const Mesh<Dim>& mesh, CellId c) {
+  const auto position = [&](int i) -> const Point<Dim>& { return mesh.points[mesh.cells[c][i]]; };
+  double lowest = corner_jacobian<Dim>(0, position);
+  for (int k = 1; k < Cell<Dim>::corners; ++k) {
+    const double j = corner_jacobian<Dim>(k, position);
+    if (!(j >= lowest)) lowest = j;
+  }
+  return lowest;
+}
+
+}  // namespace pillowmesh
