@@ -1,0 +1,341 @@
+#include "c_api.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "events.h"
+#include "pillowmesh/adapt/adapter.h"
+#include "pillowmesh/io/io.h"
+#include "pillowmesh/metric/field.h"
+#include "pillowmesh/metric/gallery.h"
+#include "pillowmesh/metric/length.h"
+#include "pillowmesh/quality/report.h"
+#include "pillowmesh/quality/shape.h"
+
+#ifndef PILLOWMESH_VERSION
+#define PILLOWMESH_VERSION "0.1.0"
+#endif
+
+using namespace pillowmesh;
+
+namespace {
+
+/// All of a session that depends on the dimension.
+template <int Dim>
+struct Problem {
+  static constexpr int dimension = Dim;
+  Mesh<Dim> mesh;
+  std::optional<MetricField<Dim>> field;
+  std::optional<Adapter<Dim>> adapter;
+
+  [[nodiscard]] const Mesh<Dim>& current() const { return adapter ? adapter->mesh() : mesh; }
+};
+
+using AnyProblem = std::variant<std::monostate, Problem<2>, Problem<3>>;
+
+template <int Dim>
+std::span<const Point<Dim>> as_points(const double* coordinates, std::uint32_t count) {
+  static_assert(sizeof(Point<Dim>) == Dim * sizeof(double));
+  return {reinterpret_cast<const Point<Dim>*>(coordinates), count};
+}
+
+template <int Dim>
+std::span<const Corners<Dim>> as_cells(const std::int32_t* corners, std::uint32_t count) {
+  static_assert(sizeof(Corners<Dim>) == Cell<Dim>::corners * sizeof(std::int32_t));
+  return {reinterpret_cast<const Corners<Dim>*>(corners), count};
+}
+
+/// Each edge of the live cells once, as sorted pairs in sorted order.
+template <int Dim>
+std::vector<std::array<VertexId, 2>> edges_of(std::span<const Corners<Dim>> cells) {
+  std::vector<std::array<VertexId, 2>> edges;
+  edges.reserve(cells.size() * Cell<Dim>::edges);
+  for (const Corners<Dim>& corners : cells) {
+    if (corners[0] == kNone) continue;
+    for (int e = 0; e < Cell<Dim>::edges; ++e) {
+      const auto [low, high] = std::minmax(corners[Cell<Dim>::edge_from(e)], corners[Cell<Dim>::edge_to(e)]);
+      edges.push_back({low, high});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+template <int Dim>
+Status check_cells(std::span<const Corners<Dim>> cells, std::uint32_t point_count) {
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (cells[c][0] == kNone) continue;
+    for (const VertexId v : cells[c])
+      if (v < 0 || static_cast<std::uint32_t>(v) >= point_count)
+        return Status::usage("cell " + std::to_string(c) + " names point " + std::to_string(v) + " of " +
+                             std::to_string(point_count) + ".");
+  }
+  return {};
+}
+
+void append_quoted(std::string_view text, std::string& json) {
+  json += '"';
+  for (const char c : text) {
+    if (c == '"' || c == '\\') json += '\\';
+    if (c == '\n') {
+      json += "\\n";
+    } else {
+      json += c;
+    }
+  }
+  json += '"';
+}
+
+std::string cases_as_json() {
+  std::string json = "[";
+  for (const Case& c : gallery()) {
+    if (json.size() > 1) json += ",";
+    json += "\n{\"name\": ";
+    append_quoted(c.name, json);
+    json += ", \"dim\": " + std::to_string(c.dim);
+    const std::pair<const char*, std::string_view> texts[] = {
+        {"title", c.title}, {"mesh", c.mesh}, {"formula", c.formula}, {"source", c.source}};
+    for (const auto& [key, text] : texts) {
+      json += std::string(", \"") + key + "\": ";
+      append_quoted(text, json);
+    }
+    json += "}";
+  }
+  return json + "\n]\n";
+}
+
+}  // namespace
+
+struct pm_session {
+  AnyProblem problem;
+  AdaptOptions options;
+  Status last;
+  std::vector<std::int32_t> ints;
+  std::vector<double> doubles;
+  std::string bytes;
+
+  pm_status finish(Status status) {
+    last = std::move(status);
+    return static_cast<pm_status>(last.code);
+  }
+
+  /// Calls body(problem) -> Status with the problem of the loaded mesh's dimension.
+  template <class Body>
+  pm_status with_mesh(Body&& body) {
+    return finish(std::visit(
+        [&](auto& p) -> Status {
+          if constexpr (std::is_same_v<std::decay_t<decltype(p)>, std::monostate>) {
+            return Status::usage("No mesh is loaded.");
+          } else {
+            return body(p);
+          }
+        },
+        problem));
+  }
+
+  /// As with_mesh, when there is a metric as well.
+  template <class Body>
+  pm_status with_metric(Body&& body) {
+    return with_mesh([&](auto& p) -> Status {
+      if (!p.field) return Status::usage("No metric is set.");
+      return body(p);
+    });
+  }
+
+  pm_status load(Expected<AnyMesh> mesh) {
+    if (!mesh) return finish(mesh.status());
+    std::visit([this](auto& m) { replace_mesh(m); }, *mesh);
+    return finish({});
+  }
+
+ private:
+  template <int Dim>
+  void replace_mesh(Mesh<Dim>& mesh) {
+    Problem<Dim> next;
+    if (auto* now = std::get_if<Problem<Dim>>(&problem)) next.field = now->field;
+    next.mesh = std::move(mesh);
+    problem = std::move(next);
+  }
+};
+
+extern "C" {
+
+void* pm_alloc(uint32_t bytes) { return std::malloc(bytes); }
+void pm_free(void* memory) { std::free(memory); }
+
+const char* pm_version(void) { return PILLOWMESH_VERSION; }
+
+const char* pm_cases(void) {
+  static const std::string json = cases_as_json();
+  return json.c_str();
+}
+
+pm_session* pm_create(void) { return new pm_session; }
+void pm_destroy(pm_session* session) { delete session; }
+const char* pm_message(const pm_session* session) { return session->last.message.c_str(); }
+
+const int32_t* pm_ints(const pm_session* session) { return session->ints.data(); }
+uint32_t pm_int_count(const pm_session* session) { return static_cast<uint32_t>(session->ints.size()); }
+const double* pm_doubles(const pm_session* session) { return session->doubles.data(); }
+uint32_t pm_double_count(const pm_session* session) { return static_cast<uint32_t>(session->doubles.size()); }
+const char* pm_bytes(const pm_session* session) { return session->bytes.data(); }
+uint32_t pm_byte_count(const pm_session* session) { return static_cast<uint32_t>(session->bytes.size()); }
+
+pm_status pm_load_file(pm_session* session, const char* name, uint32_t name_size, const char* bytes, uint32_t size) {
+  return session->load(read_mesh({name, name_size}, {bytes, size}));
+}
+
+pm_status pm_load_grid(pm_session* session, const char* spec, uint32_t size) {
+  return session->load(parse_grid({spec, size}));
+}
+
+pm_status pm_load_case(pm_session* session, const char* name, uint32_t size) {
+  const Case* found = find_case({name, size});
+  if (found == nullptr)
+    return session->finish(Status::usage("There is no case named \"" + std::string(name, size) + "\"."));
+  const pm_status status = session->load(parse_grid(found->mesh));
+  if (status != PM_OK) return status;
+  return pm_set_metric(session, found->formula.data(), static_cast<uint32_t>(found->formula.size()), 1.0);
+}
+
+pm_status pm_set_metric(pm_session* session, const char* formula, uint32_t size, double scale) {
+  return session->with_mesh([&](auto& p) -> Status {
+    constexpr int dim = std::decay_t<decltype(p)>::dimension;
+    if (!(scale > 0.0)) return Status::usage("The size factor must be positive.");
+    auto field = MetricField<dim>::from_formula({formula, size});
+    if (!field) return field.status();
+    if (Status usable = field->check(p.mesh.points); !usable.ok()) return usable;
+    p.field = scale == 1.0 ? *field : field->scaled(scale);
+    p.adapter.reset();
+    return {};
+  });
+}
+
+pm_status pm_set_option(pm_session* session, const char* name, uint32_t name_size, const char* value, uint32_t size) {
+  return session->finish(set_option(session->options, {name, name_size}, {value, size}));
+}
+
+pm_status pm_begin(pm_session* session) {
+  return session->with_metric([&](auto& p) -> Status {
+    AdaptOptions options = session->options;
+    options.record = true;
+    p.adapter.emplace(p.mesh, *p.field, options);
+    return {};
+  });
+}
+
+pm_status pm_step(pm_session* session, uint32_t steps) {
+  bool more = true;
+  const pm_status status = session->with_metric([&](auto& p) -> Status {
+    if (!p.adapter) return Status::usage("No run has begun.");
+    for (uint32_t i = 0; i < steps && more; ++i) more = p.adapter->step();
+    return more ? Status{} : p.adapter->outcome();
+  });
+  return status == PM_OK && more ? PM_MORE : status;
+}
+
+pm_status pm_take_events(pm_session* session) {
+  session->ints.clear();
+  session->doubles.clear();
+  return session->with_mesh([&](auto& p) -> Status {
+    if (!p.adapter) return {};
+    for (const auto& event : p.adapter->take_events()) append_event(event, session->ints, session->doubles);
+    return {};
+  });
+}
+
+int32_t pm_dimension(const pm_session* session) {
+  return std::visit(
+      [](const auto& p) -> int32_t {
+        if constexpr (std::is_same_v<std::decay_t<decltype(p)>, std::monostate>) {
+          return 0;
+        } else {
+          return std::decay_t<decltype(p)>::dimension;
+        }
+      },
+      session->problem);
+}
+
+pm_status pm_mesh(pm_session* session) {
+  return session->with_mesh([&](auto& p) -> Status {
+    const auto& mesh = p.current();
+    session->ints.clear();
+    session->doubles.clear();
+    for (const auto& corners : mesh.cells) session->ints.insert(session->ints.end(), corners.begin(), corners.end());
+    for (const auto& point : mesh.points)
+      session->doubles.insert(session->doubles.end(), point.data(), point.data() + point.size());
+    return {};
+  });
+}
+
+pm_status pm_report(pm_session* session) {
+  return session->with_metric([&](auto& p) -> Status {
+    Report report = measure(p.current(), *p.field);
+    if (p.adapter) {
+      report.seconds = p.adapter->seconds();
+      report.operations = p.adapter->operations();
+    }
+    session->bytes = to_json(report);
+    return {};
+  });
+}
+
+pm_status pm_write_file(pm_session* session, const char* name, uint32_t size) {
+  return session->with_mesh([&](auto& p) -> Status {
+    Expected<std::string> file = write_mesh(AnyMesh(p.current()), {name, size});
+    if (!file) return file.status();
+    session->bytes = std::move(*file);
+    return {};
+  });
+}
+
+pm_status pm_tensors(pm_session* session, const double* points, uint32_t point_count) {
+  return session->with_metric([&](auto& p) -> Status {
+    constexpr int dim = std::decay_t<decltype(p)>::dimension;
+    std::vector<SymTensor<dim>> tensors(point_count);
+    p.field->evaluate(as_points<dim>(points, point_count), tensors);
+    session->doubles.clear();
+    for (const auto& t : tensors) session->doubles.insert(session->doubles.end(), t.m.begin(), t.m.end());
+    return {};
+  });
+}
+
+pm_status pm_cell_shapes(pm_session* session, const double* points, uint32_t point_count, const int32_t* cells,
+                         uint32_t cell_count) {
+  return session->with_metric([&](auto& p) -> Status {
+    constexpr int dim = std::decay_t<decltype(p)>::dimension;
+    const auto corners = as_cells<dim>(cells, cell_count);
+    if (Status fits = check_cells<dim>(corners, point_count); !fits.ok()) return fits;
+    const auto all = as_points<dim>(points, point_count);
+    session->doubles.assign(cell_count, std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t c = 0; c < corners.size(); ++c)
+      if (corners[c][0] != kNone) session->doubles[c] = cell_shape(*p.field, all, corners[c]);
+    return {};
+  });
+}
+
+pm_status pm_edge_lengths(pm_session* session, const double* points, uint32_t point_count, const int32_t* cells,
+                          uint32_t cell_count) {
+  return session->with_metric([&](auto& p) -> Status {
+    constexpr int dim = std::decay_t<decltype(p)>::dimension;
+    const auto corners = as_cells<dim>(cells, cell_count);
+    if (Status fits = check_cells<dim>(corners, point_count); !fits.ok()) return fits;
+    const auto edges = edges_of<dim>(corners);
+    session->doubles.resize(edges.size());
+    edge_lengths<dim>(*p.field, as_points<dim>(points, point_count), edges, session->doubles);
+    session->ints.clear();
+    for (const auto& e : edges) session->ints.insert(session->ints.end(), e.begin(), e.end());
+    return {};
+  });
+}
+
+}  // extern "C"

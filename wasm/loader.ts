@@ -1,0 +1,140 @@
+// Instantiates the core: a standalone WebAssembly module with a C interface (c_api.h) and a handful of WASI imports.
+// Works in a page, a worker and Node; asks for nothing but WebAssembly itself (no eval, no generated glue).
+
+/** Why the core could not be loaded. */
+export type LoadFailure = 'unsupported' | 'missing' | 'broken';
+
+export class LoadError extends Error {
+  readonly reason: LoadFailure;
+  constructor(reason: LoadFailure, message: string) {
+    super(message);
+    this.name = 'LoadError';
+    this.reason = reason;
+  }
+}
+
+/** The core trapped: out of memory, or a defect. The instance must not be used any more. */
+export class CrashError extends Error {
+  constructor(cause: unknown) {
+    super(`The core stopped: ${cause instanceof Error ? cause.message : String(cause)}.`, { cause });
+    this.name = 'CrashError';
+  }
+}
+
+type Pointer = number;
+type Status = number;
+
+/** The functions of c_api.h. */
+export interface Exports {
+  memory: WebAssembly.Memory;
+  _initialize?(): void;
+  pm_alloc(bytes: number): Pointer;
+  pm_free(memory: Pointer): void;
+  pm_version(): Pointer;
+  pm_cases(): Pointer;
+  pm_create(): Pointer;
+  pm_destroy(session: Pointer): void;
+  pm_message(session: Pointer): Pointer;
+  pm_ints(session: Pointer): Pointer;
+  pm_int_count(session: Pointer): number;
+  pm_doubles(session: Pointer): Pointer;
+  pm_double_count(session: Pointer): number;
+  pm_bytes(session: Pointer): Pointer;
+  pm_byte_count(session: Pointer): number;
+  pm_load_file(session: Pointer, name: Pointer, nameSize: number, bytes: Pointer, size: number): Status;
+  pm_load_grid(session: Pointer, spec: Pointer, size: number): Status;
+  pm_load_case(session: Pointer, name: Pointer, size: number): Status;
+  pm_set_metric(session: Pointer, formula: Pointer, size: number, scale: number): Status;
+  pm_set_option(session: Pointer, name: Pointer, nameSize: number, value: Pointer, size: number): Status;
+  pm_begin(session: Pointer): Status;
+  pm_step(session: Pointer, steps: number): Status;
+  pm_take_events(session: Pointer): Status;
+  pm_dimension(session: Pointer): number;
+  pm_mesh(session: Pointer): Status;
+  pm_report(session: Pointer): Status;
+  pm_write_file(session: Pointer, name: Pointer, size: number): Status;
+  pm_tensors(session: Pointer, points: Pointer, count: number): Status;
+  pm_cell_shapes(session: Pointer, points: Pointer, pointCount: number, cells: Pointer, cellCount: number): Status;
+  pm_edge_lengths(session: Pointer, points: Pointer, pointCount: number, cells: Pointer, cellCount: number): Status;
+}
+
+/** The loaded core: its exports, and the module for further instances. */
+export interface Core {
+  readonly exports: Exports;
+  readonly module: WebAssembly.Module;
+}
+
+/** Where the module comes from: an address to fetch, its bytes, or a module compiled before. */
+export type CoreSource = string | URL | BufferSource | WebAssembly.Module;
+
+async function compile(source: CoreSource): Promise<WebAssembly.Module> {
+  if (typeof WebAssembly !== 'object')
+    throw new LoadError('unsupported', 'This browser cannot run WebAssembly, which pillowmesh computes with.');
+  if (source instanceof WebAssembly.Module) return source;
+  let bytes: BufferSource;
+  if (typeof source === 'string' || source instanceof URL) {
+    let response: Response;
+    try {
+      response = await fetch(source);
+    } catch (error) {
+      throw new LoadError('missing', `The core could not be fetched: ${(error as Error).message}.`);
+    }
+    if (!response.ok)
+      throw new LoadError('missing', `The core could not be fetched: the server answered ${response.status}.`);
+    bytes = await response.arrayBuffer();
+  } else {
+    bytes = source;
+  }
+  try {
+    return await WebAssembly.compile(bytes);
+  } catch (error) {
+    throw new LoadError('broken', `The core's file is damaged or not WebAssembly: ${(error as Error).message}`);
+  }
+}
+
+/** The few calls that the standard library makes: a clock, and what it would do at the end of a program. */
+function imports(memory: () => WebAssembly.Memory): WebAssembly.Imports {
+  const success = 0;
+  const notSupported = 58; // WASI errno ENOTSUP
+  const wasi = {
+    clock_time_get(_clock: number, _precision: bigint, out: Pointer): number {
+      const nanoseconds = BigInt(Math.round(performance.now() * 1e6));
+      new DataView(memory().buffer).setBigUint64(out, nanoseconds, true);
+      return success;
+    },
+    proc_exit(code: number): never {
+      throw new WebAssembly.RuntimeError(`exit ${code}`);
+    },
+    environ_sizes_get(count: Pointer, size: Pointer): number {
+      const view = new DataView(memory().buffer);
+      view.setUint32(count, 0, true);
+      view.setUint32(size, 0, true);
+      return success;
+    },
+    environ_get: () => success,
+    fd_write: () => notSupported,
+    fd_read: () => notSupported,
+    fd_seek: () => notSupported,
+    fd_close: () => notSupported,
+    fd_fdstat_get: () => notSupported,
+  };
+  return { wasi_snapshot_preview1: wasi, env: { emscripten_notify_memory_growth: () => undefined } };
+}
+
+/** Compiles and instantiates the core. Rejects with a LoadError that says what is wrong. */
+export async function loadCore(source: CoreSource): Promise<Core> {
+  const module = await compile(source);
+  const holder: { memory?: WebAssembly.Memory } = {};
+  let instance: WebAssembly.Instance;
+  try {
+    instance = await WebAssembly.instantiate(module, imports(() => holder.memory!));
+  } catch (error) {
+    throw new LoadError('broken', `The core does not fit its loader: ${(error as Error).message}`);
+  }
+  const exports = instance.exports as unknown as Exports;
+  if (typeof exports.pm_create !== 'function')
+    throw new LoadError('broken', 'The file is WebAssembly, but not the core of pillowmesh.');
+  holder.memory = exports.memory;
+  exports._initialize?.();
+  return { exports, module };
+}
