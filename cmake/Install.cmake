@@ -21,7 +21,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/pillowmeshConfig.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/pillowmeshConfigVersion.cmake DESTINATION ${package_dir})
 
 # Relative to the .pc file, so that the installed tree can be moved.
-file(RELATIVE_PATH PILLOWMESH_PC_PREFIX /root/${CMAKE_INSTALL_LIBDIR}/pkgconfig /root)
+file(RELATIVE_PATH PILLOWMESH_PC_PREFIX /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 string(REGEX REPLACE "/$" "" PILLOWMESH_PC_PREFIX "${PILLOWMESH_PC_PREFIX}")
 configure_file(cmake/pillowmesh.pc.in pillowmesh.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/pillowmesh.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -1,0 +1,28 @@
+// Builds CMake presets; ninja rebuilds only what changed. Usage: node scripts/build.mjs [PRESET...], default: release wasm
+import { existsSync, readFileSync, rmSync } from 'node:fs';
+import { availableParallelism } from 'node:os';
+import { join } from 'node:path';
+import { Failure, isMain, main, root, run } from './run.mjs';
+
+/** Configures (once) and builds a preset of CMakePresets.json. */
+export function build(preset) {
+  const folder = join(root, 'build', preset);
+  const cache = join(folder, 'CMakeCache.txt');
+  // A checkout that was moved or copied with its build folder cannot go on with it.
+  if (existsSync(cache) && !readFileSync(cache, 'utf8').includes(`CMAKE_HOME_DIRECTORY:INTERNAL=${root}\n`)) {
+    rmSync(folder, { recursive: true });
+  }
+  if (!existsSync(join(folder, 'build.ninja'))) {
+    console.log(`Configuring ${preset}`);
+    if (!run('cmake', ['--preset', preset])) throw new Failure(`cmake --preset ${preset} failed (see above)`);
+  }
+  console.log(`Building ${preset}`);
+  if (!run('cmake', ['--build', '--preset', preset, '-j', String(availableParallelism())])) {
+    throw new Failure(`building ${preset} failed (see above)`);
+  }
+}
+
+if (isMain(import.meta)) {
+  const presets = process.argv.slice(2);
+  await main(() => (presets.length > 0 ? presets : ['release', 'wasm']).forEach(build));
+}

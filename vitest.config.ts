@@ -1,0 +1,27 @@
+import { defineConfig } from 'vitest/config';
+
+// One project per suite of scripts/test.mjs. The suites that build, start programs or drive a browser run one file at
+// a time: the machine may have two cores.
+const project = (name: string, timeout: number, serial = true) => ({
+  test: {
+    name,
+    include: [`tests/${name}/**/*.test.ts`],
+    environment: 'node' as const,
+    testTimeout: timeout,
+    hookTimeout: timeout,
+    fileParallelism: !serial,
+  },
+});
+
+export default defineConfig({
+  test: {
+    projects: [
+      project('structure', 20_000, false),
+      project('cli', 60_000),
+      project('package', 600_000),
+      project('wasm', 60_000, false),
+      project('parity', 120_000),
+      project('web', 120_000),
+    ],
+  },
+});
