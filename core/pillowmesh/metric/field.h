@@ -1,23 +1,36 @@
 // A metric tensor per point of the domain.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "pillowmesh/mesh/status.h"
-#include "pillowmesh/metric/expression.h"
+#include "pillowmesh/metric/program.h"
 #include "pillowmesh/metric/tensor.h"
 
 namespace pillowmesh {
+
+/// A batch of points and of tensors, one array per coordinate and per packed entry.
+template <int Dim>
+using PointLanes = std::array<Lanes, Dim>;
+template <int Dim>
+using TensorLanes = std::array<Lanes, SymTensor<Dim>::size>;
 
 /// The metric field. A value: cheap to copy, immutable, safe to read from several threads.
 template <int Dim>
 class MetricField {
  public:
-  /// From a formula (see expression.h): `h`, `h1 h2 theta`, `h1 h2 h3 [theta phi]`, or `m11 m12 m22 [m13 m23 m33]`.
-  /// \return usage with the column of the mistake.
+  /// From a formula (see expression.h) that assigns one of these sets of names, D = diag(h1^-2, h2^-2, ...):
+  ///  - `h`: the same size in every direction;
+  ///  - 2D: `h1 h2 [theta]`: M = R_theta D R_theta^-1, theta being the angle of the h1 direction;
+  ///  - 3D: `h1 h2 h3 [theta] [phi]`: M = R_theta R_phi D R_phi^-1 R_theta^-1 with the rotations of [Paper] Eqs. (10),
+  ///  (11):
+  ///    the h1 direction is (cos theta cos phi, sin theta cos phi, -sin phi);
+  ///  - `m11 m12 m22` (2D), `m11 m12 m22 m13 m23 m33` (3D): the tensor itself.
+  /// Angles are radians and 0 unless assigned. Where a size is not positive the tensor is not a number.
+  /// \return usage with the column of the mistake, or with the names that are missing or do not go together.
   static Expected<MetricField> from_formula(std::string_view text);
   /// The same tensor everywhere.
   static MetricField uniform(const SymTensor<Dim>& tensor);
@@ -28,14 +41,16 @@ class MetricField {
   /// Tensors at many points at once: the fast way. \pre out.size() >= points.size(). Does not allocate.
   void evaluate(std::span<const Point<Dim>> points, std::span<SymTensor<Dim>> out) const;
   [[nodiscard]] SymTensor<Dim> evaluate(const Point<Dim>& point) const;
+  /// The same on lanes 0 .. count - 1, for callers that integrate. \pre 1 <= count <= kLanes
+  void evaluate(const PointLanes<Dim>& points, int count, TensorLanes<Dim>& out) const;
 
-  /// Checks that the tensor is finite and positive definite at each point; names the first that is not.
+  /// Checks that the tensor is finite and positive definite at each point.
+  /// \return bad_input naming the first point where it is not.
   [[nodiscard]] Status check(std::span<const Point<Dim>> points) const;
 
  private:
   std::shared_ptr<const Program> program_;
-  int form_ = 0;
-  double scale_ = 1.0;
+  double scale_ = 1.0;  // of the tensor
 };
 
 }  // namespace pillowmesh

@@ -1,0 +1,28 @@
+// The arithmetic of each formula operation on one number; shared by constant folding and by programs.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "pillowmesh/metric/portable_math.h"
+
+namespace pillowmesh::operations {
+
+// Comparisons rather than fmin, fmax: one instruction each, vectorised. With a NaN the result is b.
+inline double minimum(double a, double b) { return a < b ? a : b; }
+inline double maximum(double a, double b) { return a > b ? a : b; }
+inline double truth(bool b) { return b ? 1.0 : 0.0; }
+
+// atan2(0, 0) = 0, whose cosine is 1.
+inline double cosine_of_arc(double y, double x) {
+  const double square = x * x + y * y;
+  return square == 0.0 ? 1.0 : x / std::sqrt(square);
+}
+inline double sine_of_arc(double y, double x) {
+  const double square = x * x + y * y;
+  return square == 0.0 ? 0.0 : y / std::sqrt(square);
+}
+
+inline double size_to_metric(double h) { return h > 0.0 ? 1.0 / (h * h) : std::numeric_limits<double>::quiet_NaN(); }
+
+}  // namespace pillowmesh::operations

@@ -1,0 +1,167 @@
+#include <cmath>
+
+#include "pillowmesh/metric/operations.h"
+#include "pillowmesh/metric/program.h"
+
+namespace pillowmesh {
+namespace {
+
+// Lanes are processed in groups of this many, so that the loops have no remainder.
+constexpr int kGroup = 8;
+
+template <class F>
+inline void map(double* __restrict out, const double* a, int n, F f) {
+  for (int i = 0; i < n; i += kGroup) {
+    for (int k = 0; k < kGroup; ++k) out[i + k] = f(a[i + k]);
+  }
+}
+
+template <class F>
+inline void map(double* __restrict out, const double* a, const double* b, int n, F f) {
+  for (int i = 0; i < n; i += kGroup) {
+    for (int k = 0; k < kGroup; ++k) out[i + k] = f(a[i + k], b[i + k]);
+  }
+}
+
+int count_true(const double* a, int n) {
+  int count = 0;
+  for (int i = 0; i < n; ++i) count += a[i] != 0.0 ? 1 : 0;
+  return count;
+}
+
+}  // namespace
+
+void Program::run(const Lanes* coordinates, int count, std::span<Lanes> results) const {
+  alignas(16) double registers[kMaxRegisters * kLanes];
+  const int n = (count + kGroup - 1) / kGroup * kGroup;
+  for (int axis = 0; axis < axes_; ++axis) {
+    double* r = registers + axis * kLanes;
+    for (int i = 0; i < count; ++i) r[i] = coordinates[axis][i];
+    // Repeating a point keeps the batch of one mind about every `if`.
+    for (int i = count; i < n; ++i) r[i] = r[count - 1];
+  }
+  const auto lanes = [&](int index) -> const double* {
+    return index >= 0 ? registers + index * kLanes : constants_[~index].data();
+  };
+
+  using namespace operations;
+  const auto end = static_cast<int>(code_.size());
+  for (int line = 0; line < end; ++line) {
+    const Instruction& i = code_[line];
+    const double* a = lanes(i.a);
+    const double* b = lanes(i.b);
+    double* out = registers + i.out * kLanes;
+    switch (i.op) {
+      case Op::add:
+        map(out, a, b, n, [](double u, double v) { return u + v; });
+        break;
+      case Op::subtract:
+        map(out, a, b, n, [](double u, double v) { return u - v; });
+        break;
+      case Op::multiply:
+        map(out, a, b, n, [](double u, double v) { return u * v; });
+        break;
+      case Op::divide:
+        map(out, a, b, n, [](double u, double v) { return u / v; });
+        break;
+      case Op::negate:
+        map(out, a, n, [](double u) { return -u; });
+        break;
+      case Op::power:
+        map(out, a, b, n, portable::pow);
+        break;
+      case Op::square_root:
+        map(out, a, n, [](double u) { return std::sqrt(u); });
+        break;
+      case Op::exponential:
+        map(out, a, n, portable::exp);
+        break;
+      case Op::logarithm:
+        map(out, a, n, portable::log);
+        break;
+      case Op::sine:
+        map(out, a, n, portable::sin);
+        break;
+      case Op::cosine:
+        map(out, a, n, portable::cos);
+        break;
+      case Op::tangent:
+        map(out, a, n, portable::tan);
+        break;
+      case Op::arc_sine:
+        map(out, a, n, portable::asin);
+        break;
+      case Op::arc_cosine:
+        map(out, a, n, portable::acos);
+        break;
+      case Op::arc_tangent:
+        map(out, a, n, portable::atan);
+        break;
+      case Op::arc_tangent_2:
+        map(out, a, b, n, portable::atan2);
+        break;
+      case Op::hyperbolic_tangent:
+        map(out, a, n, portable::tanh);
+        break;
+      case Op::absolute:
+        map(out, a, n, [](double u) { return std::fabs(u); });
+        break;
+      case Op::minimum:
+        map(out, a, b, n, minimum);
+        break;
+      case Op::maximum:
+        map(out, a, b, n, maximum);
+        break;
+      case Op::floor:
+        map(out, a, n, portable::floor);
+        break;
+      case Op::less:
+        map(out, a, b, n, [](double u, double v) { return truth(u < v); });
+        break;
+      case Op::less_or_equal:
+        map(out, a, b, n, [](double u, double v) { return truth(u <= v); });
+        break;
+      case Op::equal:
+        map(out, a, b, n, [](double u, double v) { return truth(u == v); });
+        break;
+      case Op::not_equal:
+        map(out, a, b, n, [](double u, double v) { return truth(u != v); });
+        break;
+      case Op::cosine_of_arc:
+        map(out, a, b, n, cosine_of_arc);
+        break;
+      case Op::sine_of_arc:
+        map(out, a, b, n, sine_of_arc);
+        break;
+      case Op::size_to_metric:
+        map(out, a, n, size_to_metric);
+        break;
+      case Op::select: {
+        // Of one mind, the other side may have been jumped over: do not even read it.
+        const double* c = lanes(i.c);
+        const int yes = count_true(a, n);
+        if (yes == 0 || yes == n) {
+          map(out, yes == n ? b : c, n, [](double u) { return u; });
+        } else {
+          for (int k = 0; k < n; ++k) out[k] = a[k] != 0.0 ? b[k] : c[k];
+        }
+        break;
+      }
+      case Op::skip_if_none:
+        if (count_true(a, n) == 0) line += i.c;
+        break;
+      case Op::skip_if_all:
+        if (count_true(a, n) == n) line += i.c;
+        break;
+      case Op::constant:
+      case Op::variable:
+        break;
+    }
+  }
+  for (std::size_t k = 0; k < outputs_.size(); ++k) {
+    const double* from = lanes(outputs_[k]);
+    for (int i = 0; i < n; ++i) results[k][i] = from[i];
+  }
+}
+
+}  // namespace pillowmesh
