@@ -1,0 +1,64 @@
+// Settings as the fragment of an address and back. Only what differs from the defaults is written.
+import {
+  colourings,
+  defaultSettings,
+  marks,
+  optionDefaults,
+  paces,
+  type CameraPose,
+  type OptionName,
+  type Settings,
+} from './settings.ts';
+
+const number = (value: number): string => String(Number(value.toPrecision(6)));
+
+function encodeCamera({ target, zoom, direction }: CameraPose): string {
+  return [target, [zoom], direction ?? []].map((part) => part.map(number).join(',')).join(';');
+}
+
+function decodeCamera(text: string): CameraPose | null {
+  const [target, zoom, direction] = text.split(';').map((part) => part.split(',').filter(Boolean).map(Number));
+  if (!target?.length || !zoom?.length || !(zoom[0] > 0)) return null;
+  if (![...target, ...(direction ?? [])].every(Number.isFinite)) return null;
+  return { target, zoom: zoom[0], ...(direction?.length ? { direction } : {}) };
+}
+
+/** "case=iso2d&event=57": without the leading '#'. */
+export function encodeSettings(settings: Settings): string {
+  const standard = defaultSettings();
+  const query = new URLSearchParams();
+  const { mesh } = settings;
+  if (mesh.kind === 'case') query.set('case', mesh.name);
+  if (mesh.kind === 'grid') query.set('mesh', mesh.spec);
+  if (mesh.kind === 'file') query.set('file', mesh.name);
+  if (settings.formula) query.set('metric', settings.formula);
+  for (const [name, value] of Object.entries(settings.options))
+    if (value !== optionDefaults[name as OptionName]) query.set(name, value);
+  if (settings.colouring !== standard.colouring) query.set('colour', settings.colouring);
+  const hidden = marks.filter((mark) => !settings.marks[mark]);
+  if (hidden.length) query.set('hide', hidden.join(','));
+  if (settings.pace !== standard.pace) query.set('pace', settings.pace);
+  if (settings.event !== null) query.set('event', String(settings.event));
+  if (settings.camera) query.set('view', encodeCamera(settings.camera));
+  return query.toString();
+}
+
+/** Reads a fragment; whatever it does not understand keeps its default. */
+export function decodeSettings(fragment: string): Settings {
+  const query = new URLSearchParams(fragment.replace(/^#/, ''));
+  const settings = defaultSettings();
+  const get = (name: string): string | null => query.get(name);
+  const [grid, file, name] = [get('mesh'), get('file'), get('case')];
+  if (grid) settings.mesh = { kind: 'grid', spec: grid };
+  else if (file) settings.mesh = { kind: 'file', name: file };
+  else if (name) settings.mesh = { kind: 'case', name };
+  settings.formula = get('metric') ?? '';
+  for (const option of Object.keys(optionDefaults) as OptionName[]) settings.options[option] = get(option) ?? optionDefaults[option];
+  settings.colouring = colourings.find((c) => c === get('colour')) ?? settings.colouring;
+  for (const mark of (get('hide') ?? '').split(',')) if (mark in settings.marks) settings.marks[mark as never] = false as never;
+  settings.pace = paces.find((p) => p === get('pace')) ?? settings.pace;
+  const event = Number.parseInt(get('event') ?? '', 10);
+  if (event >= 0) settings.event = event;
+  settings.camera = decodeCamera(get('view') ?? '');
+  return settings;
+}

@@ -1,0 +1,53 @@
+// Everything that a visitor can set. One plain value: the permalink is this, written down.
+
+/** Where the initial mesh comes from. A file's content is not part of a link: only its name. */
+export type MeshChoice = { kind: 'case'; name: string } | { kind: 'grid'; spec: string } | { kind: 'file'; name: string };
+
+/** Options of core/pillowmesh/adapt/options.h under their command-line names, as text. */
+export const optionDefaults = { threshold: '2', smooth: 'end', dice: '1', thickness: '1', augment: '1' } as const;
+export type OptionName = keyof typeof optionDefaults;
+export type Options = Record<OptionName, string>;
+
+export const colourings = ['plain', 'shape', 'age'] as const;
+export type Colouring = (typeof colourings)[number];
+
+export const marks = ['tags', 'layer', 'hull', 'buffer', 'ellipses'] as const;
+/** What can be drawn on top of the mesh. */
+export type Mark = (typeof marks)[number];
+
+export const paces = ['auto', '0.5', '1', '2', '4', '16', '64'] as const;
+export type Pace = (typeof paces)[number];
+
+/** Centre of the picture and how far it is zoomed in (1: the mesh fills it); direction and up in 3D. */
+export interface CameraPose {
+  target: number[];
+  zoom: number;
+  direction?: number[];
+}
+
+export interface Settings {
+  mesh: MeshChoice;
+  /** Empty: the case's own. */
+  formula: string;
+  options: Options;
+  colouring: Colouring;
+  marks: Record<Mark, boolean>;
+  pace: Pace;
+  /** Number of events shown; null: from the start. */
+  event: number | null;
+  /** null: the whole mesh. */
+  camera: CameraPose | null;
+}
+
+export function defaultSettings(): Settings {
+  return {
+    mesh: { kind: 'case', name: 'iso2d' },
+    formula: '',
+    options: { ...optionDefaults },
+    colouring: 'plain',
+    marks: { tags: true, layer: true, hull: true, buffer: true, ellipses: true },
+    pace: 'auto',
+    event: null,
+    camera: null,
+  };
+}

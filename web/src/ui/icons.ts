@@ -1,0 +1,34 @@
+// The few icons of the page, drawn on a 20 x 20 grid.
+import { svg } from './dom.ts';
+
+const paths = {
+  play: 'M6 3.8v12.4a.8.8 0 0 0 1.2.7l10-6.2a.8.8 0 0 0 0-1.4l-10-6.2a.8.8 0 0 0-1.2.7z',
+  pause: 'M5.5 3.5h3v13h-3zM11.5 3.5h3v13h-3z',
+  back: 'M13.5 4l-6 6 6 6zM5 4h2v12H5z',
+  forward: 'M6.5 4l6 6-6 6zM13 4h2v12h-2z',
+  start: 'M16 4l-5.5 6 5.5 6zM10 4l-5.5 6 5.5 6zM3 4h1.5v12H3z',
+  end: 'M4 4l5.5 6L4 16zM10 4l5.5 6-5.5 6zM15.5 4H17v12h-1.5z',
+  fit: 'M3 3h5v2H5v3H3zM12 3h5v5h-2V5h-3zM3 12h2v3h3v2H3zM15 12h2v5h-5v-2h3z',
+  link: 'M8.2 11.8a3 3 0 0 0 4.2 0l3-3a3 3 0 0 0-4.2-4.2l-1 1M11.8 8.2a3 3 0 0 0-4.2 0l-3 3a3 3 0 0 0 4.2 4.2l1-1',
+  save: 'M10 3v9M6 8.5l4 4 4-4M4 16.5h12',
+  open: 'M3 16V4h5l2 2h7v10z',
+  theme: 'M10 3a7 7 0 1 0 0 14zM10 3a7 7 0 0 1 0 14',
+  help: 'M7.3 7.5a2.7 2.7 0 1 1 4 2.3c-.9.5-1.3 1-1.3 2M10 14.8v.2',
+  close: 'M5 5l10 10M15 5L5 15',
+} as const;
+
+export type IconName = keyof typeof paths;
+const outlined = new Set<IconName>(['link', 'save', 'open', 'help', 'close']);
+
+export function icon(name: IconName): SVGSVGElement {
+  const stroke = outlined.has(name);
+  return svg(
+    'svg',
+    { viewBox: '0 0 20 20', width: 20, height: 20, 'aria-hidden': 'true', class: 'icon' },
+    svg('path', {
+      d: paths[name],
+      fill: stroke ? 'none' : 'currentColor',
+      ...(stroke ? { stroke: 'currentColor', 'stroke-width': 1.7, 'stroke-linecap': 'round', 'stroke-linejoin': 'round' } : {}),
+    }),
+  );
+}

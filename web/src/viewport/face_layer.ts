@@ -1,0 +1,222 @@
+// The mesh itself: every quadrilateral with its own four corners, so that one that changes is rewritten alone. Grid
+// lines are drawn inside the fragment shader from the corner coordinates: crisp at any zoom, no edge list to keep.
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DataTexture,
+  DynamicDrawUsage,
+  LinearFilter,
+  Mesh,
+  RGBAFormat,
+  ShaderMaterial,
+  SRGBColorSpace,
+} from 'three';
+import type { ReplayMesh } from '../replay/replay_mesh.ts';
+import { surfaceFacets } from './facets.ts';
+import type { Palette } from './palette.ts';
+import { faceFragmentShader, faceVertexShader } from './shaders.ts';
+
+/** How a face is marked; the numbers are known to the shader. */
+export const faceMarks = { none: 0, layer: 1, buffer: 2 } as const;
+
+const cornersPerFace = 4;
+
+export class FaceLayer {
+  readonly object: Mesh<BufferGeometry, ShaderMaterial>;
+  /** Number of faces drawn. */
+  count = 0;
+  /** The cell of each face; null: face i is cell i. */
+  private faceCells: Int32Array | null = null;
+  private capacity = 0;
+  /** 1 for faces that are drawn; the others have all corners at the origin. */
+  private drawn = new Uint8Array(0);
+  private from!: BufferAttribute;
+  private to!: BufferAttribute;
+  /** Per corner: value to be coloured (-1: none), mark. */
+  private paint!: BufferAttribute;
+  private moving: Int32Array | 'all' = new Int32Array(0);
+  private readonly texture = new DataTexture(new Uint8Array(256 * 4), 256, 1, RGBAFormat);
+
+  constructor() {
+    this.texture.minFilter = this.texture.magFilter = LinearFilter;
+    this.texture.colorSpace = SRGBColorSpace;
+    const material = new ShaderMaterial({
+      vertexShader: faceVertexShader,
+      fragmentShader: faceFragmentShader,
+      side: 2,
+      uniforms: {
+        progress: { value: 1 },
+        colours: { value: this.texture },
+        coloured: { value: 0 },
+        lineWidth: { value: 1 },
+        lit: { value: 0 },
+        cellColour: { value: new Color() },
+        lineColour: { value: new Color() },
+        layerColour: { value: new Color() },
+        bufferColour: { value: new Color() },
+      },
+    });
+    this.object = new Mesh(new BufferGeometry(), material);
+    this.object.frustumCulled = false;
+    this.allocate(256);
+  }
+
+  setPalette(palette: Palette): void {
+    const { uniforms } = this.object.material;
+    uniforms.cellColour.value.set(palette.cell);
+    uniforms.lineColour.value.set(palette.line);
+    uniforms.layerColour.value.set(palette.layer);
+    uniforms.bufferColour.value.set(palette.buffer);
+  }
+
+  /** `colours`: 256 RGBA colours, or null for plain cells. */
+  setColours(colours: Uint8Array<ArrayBuffer> | null): void {
+    const { uniforms } = this.object.material;
+    uniforms.coloured.value = colours ? 1 : 0;
+    if (!colours) return;
+    this.texture.image.data?.set(colours);
+    this.texture.needsUpdate = true;
+  }
+
+  setLineWidth(pixels: number): void {
+    this.object.material.uniforms.lineWidth.value = pixels;
+  }
+
+  /** 0: cells as they were before the last change, 1: as they are. */
+  setProgress(progress: number): void {
+    this.object.material.uniforms.progress.value = progress;
+  }
+
+  /** Takes over what changed in the mesh, or everything. In between, faces go from where they were to where they are. */
+  update(mesh: ReplayMesh, changed: Int32Array | 'all', origins?: (vertex: number) => ArrayLike<number> | undefined): void {
+    this.settle();
+    if (mesh.dim === 3) {
+      this.replaceSurface(mesh);
+      return;
+    }
+    const before = this.count;
+    this.count = mesh.cellCount;
+    this.faceCells = null;
+    this.object.material.uniforms.lit.value = 0;
+    if (this.count > this.capacity) {
+      this.allocate(Math.ceil(1.5 * this.count));
+      changed = 'all';
+    }
+    const n = changed === 'all' ? this.count : changed.length;
+    for (let i = 0; i < n; ++i) {
+      const face = changed === 'all' ? i : changed[i];
+      const known = face < before && this.drawn[face] === 1;
+      this.writeFace(mesh, face, mesh.cells, 4 * face, known, origins);
+    }
+    this.upload([this.from, this.to], changed, 12);
+    this.moving = changed;
+    this.object.geometry.setDrawRange(0, 6 * this.count);
+  }
+
+  /** Colour value per cell: 0 to 1, anything else for none. `mark` says how each cell is marked. */
+  paintCells(value: (cell: number) => number, mark: Uint8Array): void {
+    const array = this.paint.array;
+    for (let face = 0; face < this.count; ++face) {
+      const cell = this.faceCells ? this.faceCells[face] : face;
+      const v = value(cell);
+      const m = mark[cell] ?? 0;
+      for (let k = 0, at = 8 * face; k < cornersPerFace; ++k) {
+        array[at++] = v >= 0 ? Math.min(v, 1) : -1;
+        array[at++] = m;
+      }
+    }
+    this.upload([this.paint], 'all', 8);
+  }
+
+  dispose(): void {
+    this.object.geometry.dispose();
+    this.object.material.dispose();
+    this.texture.dispose();
+  }
+
+  private writeFace(
+    mesh: ReplayMesh,
+    face: number,
+    vertices: Int32Array,
+    first: number,
+    known: boolean,
+    origins?: (vertex: number) => ArrayLike<number> | undefined,
+  ): void {
+    const { dim, points } = mesh;
+    const from = this.from.array;
+    const to = this.to.array;
+    const alive = vertices[first] >= 0;
+    this.drawn[face] = alive ? 1 : 0;
+    known &&= alive; // a dead face vanishes at once
+    for (let k = 0; k < cornersPerFace; ++k) {
+      const v = vertices[first + k];
+      const at = 12 * face + 3 * k;
+      const origin = known ? undefined : origins?.(v);
+      for (let d = 0; d < 3; ++d) {
+        const now = v >= 0 && d < dim ? points[v * dim + d] : 0;
+        from[at + d] = known ? to[at + d] : origin && d < dim ? origin[d] : now;
+        to[at + d] = now;
+      }
+    }
+  }
+
+  private replaceSurface(mesh: ReplayMesh): void {
+    const facets = surfaceFacets(mesh);
+    this.faceCells = facets.cells;
+    this.count = facets.cells.length;
+    this.object.material.uniforms.lit.value = 1;
+    if (this.count > this.capacity) this.allocate(Math.ceil(1.5 * this.count));
+    for (let face = 0; face < this.count; ++face) this.writeFace(mesh, face, facets.vertices, 4 * face, false);
+    this.upload([this.from, this.to], 'all', 12);
+    this.moving = new Int32Array(0);
+    this.object.geometry.setDrawRange(0, 6 * this.count);
+  }
+
+  /** Ends the last change: every face is where it is. */
+  private settle(): void {
+    const { moving } = this;
+    if (moving === 'all') {
+      this.from.array.set(this.to.array);
+    } else {
+      for (const face of moving)
+        for (let i = 12 * face; i < 12 * face + 12; ++i) this.from.array[i] = this.to.array[i];
+    }
+    if (moving === 'all' || moving.length > 0) this.upload([this.from], moving, 12);
+    this.moving = new Int32Array(0);
+  }
+
+  /** Marks attributes for upload: few faces piecewise, many as a whole. three.js joins neighbouring ranges. */
+  private upload(attributes: BufferAttribute[], faces: Int32Array | 'all', size: number): void {
+    for (const attribute of attributes) {
+      if (faces !== 'all' && faces.length < 512) for (const face of faces) attribute.addUpdateRange(size * face, size);
+      else attribute.addUpdateRange(0, size * this.count);
+      attribute.needsUpdate = true;
+    }
+  }
+
+  private allocate(capacity: number): void {
+    const before = this.capacity > 0 ? [this.from, this.to, this.paint] : [];
+    const attributes = [12, 12, 8].map((size, i) => {
+      const array = new Float32Array(size * capacity);
+      if (before[i]) array.set(before[i].array as Float32Array);
+      return new BufferAttribute(array, size / cornersPerFace).setUsage(DynamicDrawUsage);
+    });
+    [this.from, this.to, this.paint] = attributes as [BufferAttribute, BufferAttribute, BufferAttribute];
+    this.capacity = capacity;
+    const drawn = new Uint8Array(capacity);
+    drawn.set(this.drawn);
+    this.drawn = drawn;
+
+    const index = new Uint32Array(6 * capacity);
+    const triangles = [0, 1, 3, 0, 3, 2];
+    for (let i = 0; i < index.length; ++i) index[i] = 4 * Math.floor(i / 6) + triangles[i % 6];
+    this.object.geometry.dispose();
+    const geometry = new BufferGeometry();
+    geometry.setIndex(new BufferAttribute(index, 1));
+    geometry.setAttribute('from', this.from);
+    geometry.setAttribute('to', this.to);
+    geometry.setAttribute('paint', this.paint);
+    this.object.geometry = geometry;
+  }
+}

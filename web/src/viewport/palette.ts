@@ -1,0 +1,101 @@
+// Colours of the picture: read from the style sheet, so that they follow the theme; and the colour maps.
+
+export interface Palette {
+  background: string;
+  cell: string;
+  line: string;
+  outline: string;
+  tag: string;
+  layer: string;
+  hull: string;
+  buffer: string;
+  ellipse: string;
+}
+
+export function readPalette(element: Element): Palette {
+  const style = getComputedStyle(element);
+  const get = (name: string): string => style.getPropertyValue(`--${name}`).trim();
+  return {
+    background: get('picture'),
+    cell: get('cell'),
+    line: get('mesh-line'),
+    outline: get('outline'),
+    tag: get('tag'),
+    layer: get('layer'),
+    hull: get('hull'),
+    buffer: get('buffer'),
+    ellipse: get('ellipse'),
+  };
+}
+
+/** A point of a colour map in Oklch: lightness, chroma, hue in degrees. */
+type Anchor = readonly [lightness: number, chroma: number, hue: number];
+
+/** Oklab to sRGB bytes (Ottosson, "A perceptual color space for image processing", 2020), clipped to the gamut. */
+function toBytes(L: number, a: number, b: number): [number, number, number] {
+  const l = (L + 0.3963377774 * a + 0.2158037573 * b) ** 3;
+  const m = (L - 0.1055613458 * a - 0.0638541728 * b) ** 3;
+  const s = (L - 0.0894841775 * a - 1.291485548 * b) ** 3;
+  const linear = [
+    4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
+    -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
+    -0.0041960863 * l - 0.7034186147 * m + 1.707614701 * s,
+  ];
+  const encode = (x: number): number => {
+    const v = x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055;
+    return Math.round(255 * Math.min(1, Math.max(0, v)));
+  };
+  return linear.map(encode) as [number, number, number];
+}
+
+/** 256 RGBA colours through the anchors, evenly spaced, linear in Oklab: equal steps look equal. */
+export function colourMap(anchors: readonly Anchor[]): Uint8Array<ArrayBuffer> {
+  const bytes = new Uint8Array(256 * 4);
+  const lab = anchors.map(([L, c, h]) => [L, c * Math.cos((h * Math.PI) / 180), c * Math.sin((h * Math.PI) / 180)]);
+  for (let i = 0; i < 256; ++i) {
+    const x = (i / 255) * (lab.length - 1);
+    const k = Math.min(Math.floor(x), lab.length - 2);
+    const mix = (j: number): number => lab[k][j] + (x - k) * (lab[k + 1][j] - lab[k][j]);
+    bytes.set([...toBytes(mix(0), mix(1), mix(2)), 255], 4 * i);
+  }
+  return bytes;
+}
+
+/** Shape eta, 0 to 1. Good cells stay near the paper, bad ones stand out; lightness is monotone in both themes. */
+const shape: Record<'light' | 'dark', readonly Anchor[]> = {
+  light: [
+    [0.33, 0.12, 310],
+    [0.48, 0.17, 345],
+    [0.64, 0.17, 25],
+    [0.81, 0.11, 75],
+    [0.955, 0.045, 110],
+  ],
+  dark: [
+    [0.93, 0.09, 100],
+    [0.8, 0.14, 65],
+    [0.64, 0.17, 30],
+    [0.46, 0.14, 345],
+    [0.29, 0.055, 285],
+  ],
+};
+
+/** Iteration that made the cell, first to last. */
+const age: Record<'light' | 'dark', readonly Anchor[]> = {
+  light: [
+    [0.96, 0.015, 230],
+    [0.78, 0.08, 225],
+    [0.52, 0.12, 245],
+    [0.36, 0.11, 265],
+  ],
+  dark: [
+    [0.26, 0.03, 260],
+    [0.42, 0.09, 250],
+    [0.66, 0.12, 225],
+    [0.9, 0.08, 195],
+  ],
+};
+
+export const colourMaps = {
+  shape: { light: colourMap(shape.light), dark: colourMap(shape.dark) },
+  age: { light: colourMap(age.light), dark: colourMap(age.dark) },
+} as const;

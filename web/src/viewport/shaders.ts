@@ -1,0 +1,149 @@
+// GLSL of the layers. Positions go from `from` to `to` with `progress`, so that a change is animated without touching
+// a buffer.
+
+/** three.js tone maps and encodes through this include; colours given as uniforms are linear. */
+const output = /* glsl */ `
+  #include <colorspace_fragment>
+`;
+
+export const faceVertexShader = /* glsl */ `
+  in vec3 from;
+  in vec3 to;
+  in vec2 paint;
+  uniform float progress;
+  out vec2 corner;
+  out vec3 viewPosition;
+  flat out vec2 painted;
+
+  void main() {
+    corner = vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1);
+    painted = paint;
+    vec4 position = modelViewMatrix * vec4(mix(from, to, progress), 1.0);
+    viewPosition = position.xyz;
+    gl_Position = projectionMatrix * position;
+  }
+`;
+
+export const faceFragmentShader = /* glsl */ `
+  in vec2 corner;
+  in vec3 viewPosition;
+  flat in vec2 painted;
+  uniform float progress;
+  uniform sampler2D colours;
+  uniform float coloured;
+  uniform float lineWidth;
+  uniform float lit;
+  uniform vec3 cellColour;
+  uniform vec3 lineColour;
+  uniform vec3 layerColour;
+  uniform vec3 bufferColour;
+
+  void main() {
+    vec3 colour = cellColour;
+    if (coloured > 0.5 && painted.x >= 0.0) colour = texture2D(colours, vec2((painted.x * 255.0 + 0.5) / 256.0, 0.5)).rgb;
+
+    // The layer is tinted, the buffer layer hatched: they differ without colour, too.
+    if (painted.y > 0.5 && painted.y < 1.5) colour = mix(colour, layerColour, 0.42);
+    if (painted.y > 1.5) {
+      float stripe = abs(fract((gl_FragCoord.x + gl_FragCoord.y) / (9.0 * lineWidth)) - 0.5) * 9.0 * lineWidth;
+      float hatch = 1.0 - smoothstep(1.4 * lineWidth, 1.4 * lineWidth + 1.0, stripe);
+      colour = mix(colour, bufferColour, mix(0.16, 0.72, hatch) * progress);
+    }
+
+    if (lit > 0.5) {
+      vec3 normal = normalize(cross(dFdx(viewPosition), dFdy(viewPosition)));
+      colour *= 0.66 + 0.34 * abs(normal.z) + 0.06 * normal.y;
+    }
+
+    // Distance in pixels to the four sides; lines fade where cells become as small as the lines.
+    vec2 slope = max(vec2(length(vec2(dFdx(corner.x), dFdy(corner.x))), length(vec2(dFdx(corner.y), dFdy(corner.y)))), 1e-9);
+    vec2 side = min(corner, 1.0 - corner) / slope;
+    float distance = min(side.x, side.y);
+    float size = 1.0 / max(slope.x, slope.y);
+    float half_ = 0.5 * lineWidth;
+    float line = (1.0 - smoothstep(half_ - 0.5, half_ + 0.5, distance)) * mix(0.22, 1.0, smoothstep(2.0, 12.0, size / lineWidth));
+    gl_FragColor = vec4(mix(colour, lineColour, line), 1.0);
+    ${output}
+  }
+`;
+
+/** Segments of a width in pixels with round ends, `trim` of their length left out at each end. */
+export const strokeVertexShader = /* glsl */ `
+  in vec3 start;
+  in vec3 finish;
+  uniform float width;
+  uniform float trim;
+  uniform vec2 resolution;
+  out vec2 along; // pixels along the segment from its start, and across
+  flat out float pixels;
+
+  void main() {
+    vec4 a = projectionMatrix * modelViewMatrix * vec4(mix(start, finish, trim), 1.0);
+    vec4 b = projectionMatrix * modelViewMatrix * vec4(mix(finish, start, trim), 1.0);
+    vec2 p = a.xy / a.w * 0.5 * resolution;
+    vec2 q = b.xy / b.w * 0.5 * resolution;
+    pixels = length(q - p);
+    vec2 tangent = pixels > 1e-6 ? (q - p) / pixels : vec2(1.0, 0.0);
+    vec2 normal = vec2(-tangent.y, tangent.x);
+    float reach = 0.5 * width + 1.0;
+    bool far = position.x > 0.5;
+    vec2 at = (far ? q : p) + (far ? reach : -reach) * tangent + position.y * reach * normal;
+    along = vec2(far ? pixels + reach : -reach, position.y * reach);
+    vec4 base = far ? b : a;
+    gl_Position = vec4(at / (0.5 * resolution) * base.w, base.z, base.w);
+  }
+`;
+
+export const strokeFragmentShader = /* glsl */ `
+  in vec2 along;
+  flat in float pixels;
+  uniform float width;
+  uniform vec3 colour;
+  uniform float opacity;
+  uniform float dash;
+
+  void main() {
+    float beyond = max(max(-along.x, along.x - pixels), 0.0);
+    float distance = length(vec2(beyond, along.y));
+    float alpha = 1.0 - smoothstep(0.5 * width - 0.5, 0.5 * width + 0.5, distance);
+    if (dash > 0.0) {
+      float phase = abs(fract(along.x / dash) - 0.5) * dash;
+      alpha *= smoothstep(0.18 * dash - 0.7, 0.18 * dash + 0.7, phase);
+    }
+    if (alpha < 0.004) discard;
+    gl_FragColor = vec4(colour, alpha * opacity);
+    ${output}
+  }
+`;
+
+/** Ellipses as the image of the unit circle: centre + u * axis1 + v * axis2. */
+export const ellipseVertexShader = /* glsl */ `
+  in vec3 centre;
+  in vec3 axis1;
+  in vec3 axis2;
+  out vec2 disk;
+
+  void main() {
+    disk = position.xy * 1.15;
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(centre + disk.x * axis1 + disk.y * axis2, 1.0);
+  }
+`;
+
+export const ellipseFragmentShader = /* glsl */ `
+  in vec2 disk;
+  uniform vec3 colour;
+  uniform float width;
+
+  void main() {
+    float radius = length(disk);
+    float slope = max(length(vec2(dFdx(radius), dFdy(radius))), 1e-9);
+    float inside = (1.0 - radius) / slope; // pixels from the rim
+    float rim = 1.0 - smoothstep(0.5 * width - 0.5, 0.5 * width + 0.5, abs(inside - 0.5 * width));
+    float fill = smoothstep(-0.5, 0.5, inside);
+    float size = 1.0 / slope;
+    float alpha = max(0.85 * rim, 0.13 * fill) * mix(0.5, 1.0, smoothstep(2.0, 8.0, size));
+    if (alpha < 0.004) discard;
+    gl_FragColor = vec4(colour, alpha);
+    ${output}
+  }
+`;

@@ -1,0 +1,91 @@
+// Thick lines with round ends: tags, hull, outline.
+import {
+  BufferAttribute,
+  Color,
+  InstancedBufferAttribute,
+  InstancedBufferGeometry,
+  Mesh,
+  ShaderMaterial,
+  Vector2,
+} from 'three';
+import { strokeFragmentShader, strokeVertexShader } from './shaders.ts';
+
+export interface StrokeStyle {
+  /** In CSS pixels. */
+  width: number;
+  /** Share of the length left out at each end. */
+  trim?: number;
+  /** Length of a dash with its gap in CSS pixels; 0: continuous. */
+  dash?: number;
+  opacity?: number;
+}
+
+export class Strokes {
+  readonly object: Mesh<InstancedBufferGeometry, ShaderMaterial>;
+  private readonly style: StrokeStyle;
+
+  constructor(style: StrokeStyle, order: number) {
+    this.style = style;
+    const material = new ShaderMaterial({
+      vertexShader: strokeVertexShader,
+      fragmentShader: strokeFragmentShader,
+      transparent: true,
+      depthTest: false,
+      depthWrite: false,
+      uniforms: {
+        width: { value: style.width },
+        trim: { value: style.trim ?? 0 },
+        dash: { value: style.dash ?? 0 },
+        opacity: { value: style.opacity ?? 1 },
+        colour: { value: new Color() },
+        resolution: { value: new Vector2(1, 1) },
+      },
+    });
+    this.object = new Mesh(unitQuad(), material);
+    this.object.frustumCulled = false;
+    this.object.renderOrder = order;
+    this.object.visible = false;
+  }
+
+  setColour(colour: string): void {
+    this.object.material.uniforms.colour.value.set(colour);
+  }
+
+  /** Size of the picture in device pixels, and device pixels per CSS pixel. */
+  setResolution(width: number, height: number, ratio: number): void {
+    const { uniforms } = this.object.material;
+    uniforms.resolution.value.set(width, height);
+    uniforms.width.value = this.style.width * ratio;
+    uniforms.dash.value = (this.style.dash ?? 0) * ratio;
+  }
+
+  /** Segments as 6 coordinates each. */
+  setSegments(coordinates: Float32Array): void {
+    const { object } = this;
+    object.geometry.dispose();
+    object.geometry = unitQuad();
+    const starts = new Float32Array(coordinates.length / 2);
+    const ends = new Float32Array(coordinates.length / 2);
+    for (let i = 0; i < coordinates.length / 6; ++i) {
+      starts.set(coordinates.subarray(6 * i, 6 * i + 3), 3 * i);
+      ends.set(coordinates.subarray(6 * i + 3, 6 * i + 6), 3 * i);
+    }
+    object.geometry.setAttribute('start', new InstancedBufferAttribute(starts, 3));
+    object.geometry.setAttribute('finish', new InstancedBufferAttribute(ends, 3));
+    object.geometry.instanceCount = coordinates.length / 6;
+    object.visible = coordinates.length > 0;
+  }
+
+  dispose(): void {
+    this.object.geometry.dispose();
+    this.object.material.dispose();
+  }
+}
+
+/** Two triangles over [0, 1] x [-1, 1]. */
+function unitQuad(): InstancedBufferGeometry {
+  const geometry = new InstancedBufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(new Float32Array([0, -1, 0, 1, -1, 0, 0, 1, 0, 1, 1, 0]), 3));
+  geometry.setIndex([0, 1, 3, 0, 3, 2]);
+  return geometry;
+}

@@ -1,0 +1,250 @@
+// The picture: a camera over the layers, drawn only when something has changed.
+import { Color, MOUSE, OrthographicCamera, Scene as ThreeScene, TOUCH, Vector3, WebGLRenderer } from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import type { ReplayMesh } from '../replay/replay_mesh.ts';
+import type { Scene } from '../replay/scene.ts';
+import type { CameraPose, Mark } from '../state/settings.ts';
+import { Ellipses } from './ellipses.ts';
+import { FaceLayer, faceMarks } from './face_layer.ts';
+import type { Palette } from './palette.ts';
+import { boundaryEdges, facetEdges, segmentsOf } from './segments.ts';
+import { Strokes } from './strokes.ts';
+
+const margin = 1.08;
+/** Where a 3D mesh is looked at from at first. */
+const firstDirection = new Vector3(0.55, -0.72, 0.42);
+
+export class Viewport {
+  /** Called when the visitor has moved the camera. */
+  onPose: () => void = () => undefined;
+  /** Called when the graphics context is lost (true) and restored (false). */
+  onContext: (lost: boolean) => void = () => undefined;
+
+  readonly canvas: HTMLCanvasElement;
+  private readonly renderer: WebGLRenderer;
+  private readonly three = new ThreeScene();
+  private readonly camera = new OrthographicCamera();
+  private readonly controls: OrbitControls;
+  private readonly faces = new FaceLayer();
+  private readonly outline = new Strokes({ width: 2.2 }, 1);
+  private readonly ellipses = new Ellipses(2);
+  private readonly tags = new Strokes({ width: 4.2, trim: 0.16 }, 4);
+  private readonly hull = new Strokes({ width: 2.6, dash: 9 }, 5);
+  private readonly layerEdges = new Strokes({ width: 5.4, trim: 0.08 }, 6);
+  private readonly host: HTMLElement;
+  private readonly observer: ResizeObserver;
+  private bounds = { low: [0, 0, 0], high: [1, 1, 1] };
+  private dim = 2;
+  private moved = false;
+  private frame = 0;
+  private animation: { start: number; duration: number } | null = null;
+  private shown: Record<Mark, boolean> = { tags: true, layer: true, hull: true, buffer: true, ellipses: true };
+
+  /** Throws when the browser gives no WebGL 2. */
+  constructor(host: HTMLElement) {
+    this.host = host;
+    this.renderer = new WebGLRenderer({ antialias: true, powerPreference: 'low-power' });
+    this.canvas = this.renderer.domElement;
+    host.append(this.canvas);
+    for (const layer of [this.faces, this.outline, this.ellipses, this.tags, this.hull, this.layerEdges])
+      this.three.add(layer.object);
+
+    this.controls = new OrbitControls(this.camera, this.canvas);
+    this.controls.zoomToCursor = true;
+    this.controls.zoomSpeed = 1.4;
+    this.controls.addEventListener('change', () => this.requestRender());
+    this.controls.addEventListener('end', () => this.poseChanged());
+    this.canvas.addEventListener('wheel', () => this.poseChanged(), { passive: true });
+    this.canvas.addEventListener('dblclick', () => this.fit());
+    this.canvas.addEventListener('webglcontextlost', (event) => {
+      event.preventDefault();
+      this.onContext(true);
+    });
+    this.canvas.addEventListener('webglcontextrestored', () => {
+      this.onContext(false);
+      this.requestRender();
+    });
+    this.observer = new ResizeObserver(() => this.resize());
+    this.observer.observe(host);
+  }
+
+  setPalette(palette: Palette): void {
+    this.three.background = new Color(palette.background);
+    this.faces.setPalette(palette);
+    this.outline.setColour(palette.outline);
+    this.tags.setColour(palette.tag);
+    this.layerEdges.setColour(palette.tag);
+    this.hull.setColour(palette.hull);
+    this.ellipses.setColour(palette.ellipse);
+    this.requestRender();
+  }
+
+  /** A new mesh: everything is drawn anew and, if wished, the camera shows all of it. */
+  setMesh(mesh: ReplayMesh, fit: boolean): void {
+    this.dim = mesh.dim;
+    const { low, high } = mesh.bounds();
+    this.bounds = { low: [...low, 0].slice(0, 3), high: [...high, 0].slice(0, 3) };
+    this.faces.update(mesh, 'all');
+    this.outline.setSegments(mesh.dim === 2 ? segmentsOf(mesh, boundaryEdges(mesh)) : new Float32Array(0));
+    this.controls.enableRotate = mesh.dim === 3;
+    this.controls.mouseButtons = {
+      LEFT: mesh.dim === 3 ? MOUSE.ROTATE : MOUSE.PAN,
+      MIDDLE: MOUSE.DOLLY,
+      RIGHT: MOUSE.PAN,
+    };
+    this.controls.touches = { ONE: mesh.dim === 3 ? TOUCH.ROTATE : TOUCH.PAN, TWO: TOUCH.DOLLY_PAN };
+    this.camera.up.set(0, mesh.dim === 3 ? 0 : 1, mesh.dim === 3 ? 1 : 0);
+    if (fit) this.fit();
+    this.requestRender();
+  }
+
+  /** Shows the mesh after a change, over so many milliseconds. */
+  showMesh(
+    mesh: ReplayMesh,
+    changed: Int32Array | 'all',
+    milliseconds: number,
+    origins?: (vertex: number) => ArrayLike<number> | undefined,
+  ): void {
+    this.faces.update(mesh, changed, origins);
+    this.animation = milliseconds > 0 ? { start: performance.now(), duration: milliseconds } : null;
+    this.faces.setProgress(this.animation ? 0 : 1);
+    this.requestRender();
+  }
+
+  /** Colours and marks of the faces, and the strokes of what stands out. */
+  setScene(mesh: ReplayMesh, scene: Scene, value: (cell: number) => number): void {
+    const mark = new Uint8Array(mesh.cellCount);
+    if (this.shown.layer) for (const c of scene.layer) mark[c] = faceMarks.layer;
+    if (this.shown.buffer) for (const c of scene.buffer) mark[c] = faceMarks.buffer;
+    this.faces.paintCells(value, mark);
+    const none = new Int32Array(0);
+    this.tags.setSegments(segmentsOf(mesh, this.shown.tags ? scene.tags : none));
+    this.layerEdges.setSegments(segmentsOf(mesh, this.shown.tags ? scene.layerEdges : none));
+    this.hull.setSegments(segmentsOf(mesh, this.shown.hull ? facetEdges(mesh.dim, scene.hull) : none));
+    this.requestRender();
+  }
+
+  setMarks(shown: Record<Mark, boolean>): void {
+    this.shown = { ...shown };
+    this.ellipses.object.visible = shown.ellipses && this.ellipses.object.geometry.instanceCount > 0;
+    this.requestRender();
+  }
+
+  setColours(colours: Uint8Array<ArrayBuffer> | null): void {
+    this.faces.setColours(colours);
+    this.requestRender();
+  }
+
+  /** Centres and metric tensors of 2D ellipses. */
+  setEllipses(centres: Float64Array, tensors: Float64Array): void {
+    this.ellipses.set(centres, tensors);
+    this.setMarks(this.shown);
+  }
+
+  /** Shows the whole mesh. */
+  fit(): void {
+    this.moved = false;
+    this.pose({ target: this.centre().toArray(), zoom: 1 });
+    this.onPose();
+  }
+
+  /** Null when the whole mesh is shown as at first. */
+  currentPose(): CameraPose | null {
+    if (!this.moved) return null;
+    const { target } = this.controls;
+    const pose: CameraPose = { target: target.toArray().slice(0, this.dim), zoom: this.camera.zoom };
+    if (this.dim === 3) pose.direction = this.camera.position.clone().sub(target).normalize().toArray();
+    return pose;
+  }
+
+  setPose(pose: CameraPose): void {
+    this.moved = true;
+    this.pose(pose);
+  }
+
+  /** A PNG of the picture as it is, at a multiple of its size. */
+  capture(scale: number): Promise<Blob> {
+    const ratio = this.renderer.getPixelRatio();
+    this.setPixelRatio(ratio * scale);
+    this.renderer.render(this.three, this.camera);
+    return new Promise((resolve, reject) => {
+      this.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('The picture could not be made.'))));
+      this.setPixelRatio(ratio);
+      this.requestRender();
+    });
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.frame);
+    this.observer.disconnect();
+    this.controls.dispose();
+    for (const layer of [this.faces, this.outline, this.ellipses, this.tags, this.hull, this.layerEdges]) layer.dispose();
+    this.renderer.dispose();
+    this.canvas.remove();
+  }
+
+  private poseChanged(): void {
+    this.moved = true;
+    this.onPose();
+  }
+
+  private centre(): Vector3 {
+    const { low, high } = this.bounds;
+    return new Vector3(...low.map((x, i) => (x + high[i]) / 2));
+  }
+
+  private pose({ target, zoom, direction }: CameraPose): void {
+    const { low, high } = this.bounds;
+    const size = Math.hypot(...low.map((x, i) => high[i] - x)) || 1;
+    this.controls.target.set(target[0] ?? 0, target[1] ?? 0, target[2] ?? 0);
+    const from = this.dim === 2 ? new Vector3(0, 0, 1) : direction ? new Vector3(...direction) : firstDirection;
+    this.camera.position.copy(this.controls.target).addScaledVector(from.clone().normalize(), 4 * size);
+    this.camera.near = 0.01 * size;
+    this.camera.far = 20 * size;
+    this.camera.zoom = zoom;
+    this.resize();
+    this.controls.update();
+  }
+
+  /** At zoom 1 the frustum holds the mesh with a margin. */
+  private resize(): void {
+    const width = Math.max(1, this.host.clientWidth);
+    const height = Math.max(1, this.host.clientHeight);
+    const { low, high } = this.bounds;
+    const extent = low.map((x, i) => high[i] - x);
+    const [w, h] = this.dim === 2 ? [extent[0], extent[1]] : Array<number>(2).fill(Math.hypot(...extent));
+    const half = (margin * Math.max(h, (w * height) / width)) / 2 || 1;
+    this.camera.top = half;
+    this.camera.bottom = -half;
+    this.camera.right = (half * width) / height;
+    this.camera.left = -this.camera.right;
+    this.camera.updateProjectionMatrix();
+    this.renderer.setSize(width, height);
+    this.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.requestRender();
+  }
+
+  private setPixelRatio(ratio: number): void {
+    this.renderer.setPixelRatio(ratio);
+    const { width, height } = this.canvas;
+    for (const strokes of [this.outline, this.tags, this.hull, this.layerEdges]) strokes.setResolution(width, height, ratio);
+    this.faces.setLineWidth(1.15 * ratio);
+    this.ellipses.setLineWidth(1.3 * ratio);
+  }
+
+  private requestRender(): void {
+    this.frame ||= requestAnimationFrame((now) => this.draw(now));
+  }
+
+  private draw(now: number): void {
+    this.frame = 0;
+    if (this.animation) {
+      const { start, duration } = this.animation;
+      const t = Math.min(1, Math.max(0, (now - start) / duration));
+      this.faces.setProgress(t * t * (3 - 2 * t));
+      if (t === 1) this.animation = null;
+      else this.requestRender();
+    }
+    this.renderer.render(this.three, this.camera);
+  }
+}
