@@ -1,0 +1,284 @@
+#include "pillowmesh/refine/buffer_layer.h"
+
+#include <algorithm>
+
+#include "pillowmesh/mesh/jacobian.h"
+
+namespace pillowmesh {
+namespace {
+
+/// The hull facet, boundary facet or nothing at the end of a run of cells around a codimension-2 entity.
+struct RunEnd {
+  CellId cell;
+  int facet;    ///< where the run ends: a hull or boundary facet of `cell`
+  int entered;  ///< the other facet of `cell` at the entity
+};
+
+/// Walks from cell c, leaving through facet `leave`, around the entity in which the two facets `from` and `leave` of c
+/// meet, as long as `same_side(cell)` holds.
+template <int Dim, class SameSide>
+RunEnd walk_run(const Mesh<Dim>& mesh, CellId c, int from, int leave, SameSide&& same_side) {
+  // The entity by its vertices: one in 2D, two in 3D.
+  const int corner = (Cell<Dim>::facet_side(from) << Cell<Dim>::facet_axis(from)) |
+                     (Cell<Dim>::facet_side(leave) << Cell<Dim>::facet_axis(leave));
+  const VertexId a = mesh.cells[c][corner];
+  VertexId b = a;
+  if constexpr (Dim == 3) b = mesh.cells[c][corner | (1 << (3 - Cell<3>::facet_axis(from) - Cell<3>::facet_axis(leave)))];
+  int entered = from;
+  while (true) {
+    const HalfFacetId twin = mesh.twins[c][leave];
+    if (twin < 0 || !same_side(mesh.cell_of(twin))) return {c, leave, entered};
+    c = mesh.cell_of(twin);
+    entered = mesh.facet_of(twin);
+    const int ka = corner_of(mesh, c, a), kb = Dim == 3 ? corner_of(mesh, c, b) : ka;
+    for (int axis = 0; axis < Dim; ++axis)
+      if (axis != Cell<Dim>::facet_axis(entered) && (((ka ^ kb) >> axis) & 1) == 0)
+        leave = Cell<Dim>::facet(axis, (ka >> axis) & 1);
+  }
+}
+
+template <int Dim>
+class Inserter {
+ public:
+  using C = Cell<Dim>;
+
+  Inserter(Mesh<Dim>& mesh, PillowWorkspace<Dim>& work, BufferLayer<Dim>& layer)
+      : mesh_(mesh), hull_(work.hull), plan_(work.plan), touched_(work.touched), layer_(layer), sides_(work.sides),
+        old_vertex_cell_(work.old_vertex_cell) {}
+
+  /// What lies across each side of each new cell, decided while the old adjacency still stands.
+  void find_side_neighbours() {
+    sides_.clear();
+    const auto inside = [&](CellId n) { return hull_.in_set[n] != 0; };
+    for (const auto& h : hull_.facets)
+      for (int g = 0; g < C::facets; ++g) {
+        if (C::facet_axis(g) == C::facet_axis(h.facet)) continue;
+        const RunEnd end = walk_run(mesh_, h.inside, h.facet, g, inside);
+        Side side{kNone, 0, kNone};
+        if (hull_.is_hull(end.cell, end.facet)) {
+          side.hull_cell = end.cell;
+          side.hull_facet = end.facet;
+          side.facet = end.entered;
+          if constexpr (Dim == 3) reconsider(h, g, side);
+        } else {
+          side.patch = mesh_.patch_of(end.cell, end.facet);
+        }
+        sides_.push_back(side);
+      }
+  }
+
+  void rename_corners() {
+    touched_.clear();
+    layer_.changed.clear();
+    layer_.old_corners.clear();
+    layer_.old_twins.clear();
+    for (const CornerChange& change : plan_.changes) touched_.push_back(change.cell);
+    for (const auto& h : hull_.facets) {
+      touched_.push_back(h.inside);
+      if (h.outside != kNone) touched_.push_back(h.outside);
+    }
+    std::sort(touched_.begin(), touched_.end());
+    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+    for (const CellId c : touched_) {
+      layer_.changed.push_back(c);
+      layer_.old_corners.push_back(mesh_.cells[c]);
+      layer_.old_twins.push_back(mesh_.twins[c]);
+    }
+    for (const CornerChange& change : plan_.changes) mesh_.cells[change.cell][change.corner] = change.vertex;
+  }
+
+  void add_vertices() {
+    layer_.first_vertex = mesh_.vertex_count();
+    layer_.origins.clear();
+    for (const auto& copy : plan_.copies) {
+      layer_.origins.push_back(copy.origin);
+      mesh_.points.push_back(copy.position);
+      mesh_.support.push_back(copy.support);
+      mesh_.anchor.push_back(copy.anchor);
+      mesh_.vertex_cell.push_back(copy.cell);
+    }
+  }
+
+  /// One cell per hull facet, in the frame of its inside cell: facet `h.facet` of the new cell looks outside.
+  void extrude() {
+    layer_.first_cell = mesh_.cell_count();
+    layer_.cell_count = static_cast<Index>(hull_.facets.size());
+    for (const auto& h : hull_.facets) {
+      const CellId k = mesh_.cell_count();
+      const int inner = C::opposite_facet(h.facet);
+      Corners<Dim> corners;
+      std::array<HalfFacetId, C::facets> twins{};
+      for (int i = 0; i < C::facet_corners; ++i) {
+        corners[C::facet_corner(inner, i)] = mesh_.cells[h.inside][C::facet_corner(h.facet, i)];
+        corners[C::facet_corner(h.facet, i)] =
+            h.outside != kNone ? mesh_.cells[h.outside][h.outside_corner[i]] : h.vertices[i];
+      }
+      twins[inner] = mesh_.half_facet(h.inside, h.facet);
+      twins[h.facet] = h.outside != kNone ? mesh_.half_facet(h.outside, h.outside_facet) : ~h.patch;
+      mesh_.cells.push_back(corners);
+      mesh_.twins.push_back(twins);
+      mesh_.region.push_back(mesh_.region[h.inside]);
+      mesh_.twins[h.inside][h.facet] = mesh_.half_facet(k, inner);
+      if (h.outside != kNone) mesh_.twins[h.outside][h.outside_facet] = mesh_.half_facet(k, h.facet);
+    }
+  }
+
+  /// Joins the new cells to each other, side by side.
+  void connect_sides() {
+    std::size_t at = 0;
+    for (Index i = 0; i < layer_.cell_count; ++i) {
+      const auto& h = hull_.facets[i];
+      const CellId k = layer_.first_cell + i;
+      for (int g = 0; g < C::facets; ++g) {
+        if (C::facet_axis(g) == C::facet_axis(h.facet)) continue;
+        const Side& side = sides_[at++];
+        if (side.hull_cell == kNone) {
+          mesh_.twins[k][g] = ~side.patch;
+          continue;
+        }
+        // The inside cell of the partner's hull facet now has the partner itself as its twin there.
+        const CellId partner = mesh_.cell_of(mesh_.twins[side.hull_cell][side.hull_facet]);
+        mesh_.twins[k][g] = same_vertices(mesh_.facet_vertices(k, g), mesh_.facet_vertices(partner, side.facet))
+                                ? mesh_.half_facet(partner, side.facet)
+                                : ~side.outside_patch;
+      }
+    }
+  }
+
+  /// Vertices that stay with the outside must name a cell that still has them.
+  void repair_vertex_cells() {
+    old_vertex_cell_.clear();
+    for (const VertexId v : hull_.vertices) old_vertex_cell_.push_back(mesh_.vertex_cell[v]);
+    for (Index i = 0; i < layer_.cell_count; ++i) {
+      const CellId k = layer_.first_cell + i;
+      for (int j = 0; j < C::facet_corners; ++j)
+        mesh_.vertex_cell[mesh_.cells[k][C::facet_corner(hull_.facets[i].facet, j)]] = k;
+    }
+  }
+
+  bool valid() const {
+    for (const CellId c : layer_.changed)
+      if (!(min_corner_jacobian(mesh_, c) > 0)) return false;
+    for (CellId k = layer_.first_cell; k < mesh_.cell_count(); ++k) {
+      if (!(min_corner_jacobian(mesh_, k) > 0)) return false;
+      if (!conforming(k)) return false;
+    }
+    return true;
+  }
+
+  void undo() {
+    for (std::size_t i = 0; i < layer_.changed.size(); ++i) {
+      mesh_.cells[layer_.changed[i]] = layer_.old_corners[i];
+      mesh_.twins[layer_.changed[i]] = layer_.old_twins[i];
+    }
+    for (std::size_t i = 0; i < hull_.vertices.size(); ++i) mesh_.vertex_cell[hull_.vertices[i]] = old_vertex_cell_[i];
+    mesh_.cells.resize(layer_.first_cell);
+    mesh_.twins.resize(layer_.first_cell);
+    mesh_.region.resize(layer_.first_cell);
+    mesh_.points.resize(layer_.first_vertex);
+    mesh_.support.resize(layer_.first_vertex);
+    mesh_.anchor.resize(layer_.first_vertex);
+    mesh_.vertex_cell.resize(layer_.first_vertex);
+  }
+
+ private:
+  using Side = NewCellSide;
+
+  /// 3D: around an edge across which the shrink set is joined, the partner is found through the outside; at a boundary
+  /// edge where the shrink set touches the boundary only there, the outside's patch is needed if the two part.
+  void reconsider(const HullFacet<Dim>& h, int g, Side& side) {
+    if constexpr (Dim == 3) {
+      if (h.outside == kNone) return;
+      const int along = 3 - C::facet_axis(h.facet) - C::facet_axis(g);
+      const int corner = (C::facet_side(h.facet) << C::facet_axis(h.facet)) | (C::facet_side(g) << C::facet_axis(g));
+      const VertexId a = mesh_.cells[h.inside][corner], b = mesh_.cells[h.inside][corner | (1 << along)];
+      const int ka = corner_of(mesh_, h.outside, a), kb = corner_of(mesh_, h.outside, b);
+      int leave = 0;
+      for (int axis = 0; axis < 3; ++axis)
+        if (axis != C::facet_axis(h.outside_facet) && (((ka ^ kb) >> axis) & 1) == 0)
+          leave = C::facet(axis, (ka >> axis) & 1);
+      const RunEnd end = walk_run(mesh_, h.outside, h.outside_facet, leave, [&](CellId n) { return !hull_.in_set[n]; });
+      const HalfFacetId twin = mesh_.twins[end.cell][end.facet];
+      if (twin < 0) {
+        side.outside_patch = ~twin;
+        return;
+      }
+      const std::array<VertexId, 2> key{std::min(a, b), std::max(a, b)};
+      if (!std::binary_search(plan_.joined_inside.begin(), plan_.joined_inside.end(), key)) return;
+      side.hull_cell = mesh_.cell_of(twin);
+      side.hull_facet = mesh_.facet_of(twin);
+      // The partner's side: the other facet of its inside cell at the edge.
+      const int pa = corner_of(mesh_, side.hull_cell, a), pb = corner_of(mesh_, side.hull_cell, b);
+      for (int axis = 0; axis < 3; ++axis)
+        if (axis != C::facet_axis(side.hull_facet) && (((pa ^ pb) >> axis) & 1) == 0)
+          side.facet = C::facet(axis, (pa >> axis) & 1);
+    }
+  }
+
+  static bool same_vertices(FacetCorners<Dim> a, FacetCorners<Dim> b) {
+    std::sort(a.begin(), a.end());
+    std::sort(b.begin(), b.end());
+    return a == b;
+  }
+
+  /// No vertex twice, no two facets shared with one neighbour, twins that agree.
+  bool conforming(CellId k) const {
+    for (int i = 0; i < C::corners; ++i)
+      for (int j = 0; j < i; ++j)
+        if (mesh_.cells[k][i] == mesh_.cells[k][j]) return false;
+    for (int f = 0; f < C::facets; ++f) {
+      const HalfFacetId twin = mesh_.twins[k][f];
+      if (twin < 0) continue;
+      const CellId n = mesh_.cell_of(twin);
+      if (n >= mesh_.cell_count() || mesh_.twins[n][mesh_.facet_of(twin)] != mesh_.half_facet(k, f)) return false;
+      if (!same_vertices(mesh_.facet_vertices(k, f), mesh_.facet_vertices(n, mesh_.facet_of(twin)))) return false;
+      for (int g = 0; g < f; ++g)
+        if (mesh_.neighbour(k, g) == n) return false;
+    }
+    return true;
+  }
+
+  Mesh<Dim>& mesh_;
+  Hull<Dim>& hull_;
+  CopyPlan<Dim>& plan_;
+  std::vector<CellId>& touched_;
+  BufferLayer<Dim>& layer_;
+  std::vector<Side>& sides_;
+  std::vector<CellId>& old_vertex_cell_;
+};
+
+}  // namespace
+
+template <int Dim>
+Status insert_buffer_layer(Mesh<Dim>& mesh, std::span<const CellId> shrink_set,
+                           std::span<const HalfFacetId> boundary_hull, PillowWorkspace<Dim>& work,
+                           BufferLayer<Dim>& layer) {
+  find_hull(mesh, shrink_set, boundary_hull, work.hull);
+  Status status;
+  if (work.hull.facets.empty()) status = Status::illegal("the shrink set is the whole mesh: it has no hull");
+  Inserter<Dim> inserter(mesh, work, layer);
+  // A third of the way across at first; a tenth where thin or bent cells would turn inside out.
+  for (const double shrink : {1.0, 0.3, 0.1}) {
+    if (work.hull.facets.empty()) break;
+    status = plan_copies(mesh, work.hull, shrink, work.plan);
+    if (!status.ok()) break;
+    inserter.find_side_neighbours();
+    inserter.rename_corners();
+    inserter.add_vertices();
+    inserter.extrude();
+    inserter.connect_sides();
+    inserter.repair_vertex_cells();
+    if (inserter.valid()) break;
+    inserter.undo();
+    status = Status::illegal("no position of the new vertices keeps all corner Jacobians positive");
+  }
+  clear_hull(shrink_set, work.hull);
+  return status;
+}
+
+template Status insert_buffer_layer(Mesh<2>&, std::span<const CellId>, std::span<const HalfFacetId>,
+                                    PillowWorkspace<2>&, BufferLayer<2>&);
+template Status insert_buffer_layer(Mesh<3>&, std::span<const CellId>, std::span<const HalfFacetId>,
+                                    PillowWorkspace<3>&, BufferLayer<3>&);
+
+}  // namespace pillowmesh

@@ -1,0 +1,60 @@
+// The refinement primitive: shrink a set of cells and fill the void with a buffer layer. [Paper] section 2, Figure 1.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "pillowmesh/refine/vertex_copies.h"
+
+namespace pillowmesh {
+
+/// What an insertion did: enough to inherit tags, to show it, and to undo it.
+template <int Dim>
+struct BufferLayer {
+  VertexId first_vertex = 0;
+  std::vector<VertexId> origins;  ///< per new vertex: the hull vertex that it is a copy of
+  CellId first_cell = 0;          ///< cell first_cell + i was extruded from hull facet i
+  Index cell_count = 0;
+  /// Cells whose corners were renamed, and what they were.
+  std::vector<CellId> changed;
+  std::vector<Corners<Dim>> old_corners;
+  std::vector<std::array<HalfFacetId, Cell<Dim>::facets>> old_twins;  ///< of `changed`
+};
+
+/// Neighbour across a side of a new cell: the new cell of another hull facet, or the boundary.
+struct NewCellSide {
+  CellId hull_cell;   ///< inside cell of the other hull facet; kNone: boundary
+  int hull_facet;
+  PatchId patch;
+  int facet = 0;                  ///< side of the other new cell
+  PatchId outside_patch = kNone;  ///< 3D: taken where the two turn out to have different vertices
+};
+
+/// Buffers of the operator, reused from call to call.
+template <int Dim>
+struct PillowWorkspace {
+  Hull<Dim> hull;
+  CopyPlan<Dim> plan;
+  std::vector<CellId> touched;
+  std::vector<NewCellSide> sides;
+  std::vector<CellId> old_vertex_cell;
+};
+
+/// Inserts a buffer layer around `shrink_set` (live cells, each once). The new layer has thickness from the start.
+///
+///      +-----+-----+          +-----+-----+        the row is shrunk to its middle third,
+///      |     |     |          |\____|____/|        its hull is duplicated,
+///      |  S  |  S  |    ->    | | S | S | |        each hull facet is extruded to one cell
+///      |     |     |          |/----|----\|
+///      +-----+-----+          +-----+-----+
+///
+/// Where the shrink set meets the domain's boundary the boundary is not hull, unless named in `boundary_hull`.
+/// \return illegal, with the mesh bit-for-bit unchanged, when there is no hull, a copy would leave the boundary, or no
+/// position keeps all corner Jacobians positive. Cost: linear in the shrink set (no global work).
+/// Source: [Paper] section 2; Mitchell and Tautges, "Pillowing doublets" (1995); Schneiders (1996).
+template <int Dim>
+Status insert_buffer_layer(Mesh<Dim>& mesh, std::span<const CellId> shrink_set,
+                           std::span<const HalfFacetId> boundary_hull, PillowWorkspace<Dim>& work,
+                           BufferLayer<Dim>& layer);
+
+}  // namespace pillowmesh

@@ -1,0 +1,54 @@
+// Which copies of a hull vertex a buffer layer needs, and where they go. ../method: "copy per component".
+#pragma once
+
+#include <vector>
+
+#include "pillowmesh/mesh/status.h"
+#include "pillowmesh/refine/hull.h"
+
+namespace pillowmesh {
+
+/// "Corner `corner` of cell `cell` becomes vertex `vertex`."
+struct CornerChange {
+  CellId cell;
+  std::int8_t corner;
+  VertexId vertex;
+};
+
+/// A vertex that a buffer layer adds.
+template <int Dim>
+struct VertexCopy {
+  VertexId origin;
+  Point<Dim> position;
+  VertexSupport support;
+  Index anchor;
+  CellId cell;  ///< one cell that will use it
+};
+
+template <int Dim>
+struct CopyPlan {
+  std::vector<CornerChange> changes;
+  std::vector<VertexCopy<Dim>> copies;  ///< numbered from mesh.vertex_count() on
+  /// 3D: edges where four or more hull facets meet and the shrink set is joined across (else the outside is).
+  std::vector<std::array<VertexId, 2>> joined_inside;
+  // Buffers of one vertex at a time.
+  std::vector<CellCorner> star;
+  std::vector<int> component;
+  std::vector<VertexId> on_hull;
+};
+
+/// Decides the copies of every hull vertex v. Around v the shrink set S and the outside O fall into components, the fans
+/// of cells that are connected through facets at v; each component needs a vertex of its own, and the first O component
+/// keeps v:
+///
+///      O | S            two fans of S at one vertex (touching or self-intersecting layers):
+///     ---v---           O is joined across v and keeps it, each S fan gets a copy.
+///      S | O
+///
+/// In 3D this is decided per edge (pinched: four or more hull facets): O is joined across it or, where the S runs are one
+/// component at both its ends, S is. `shrink` scales how far the copies move: 1 = a third of the way across.
+/// \return illegal when a copy would have to leave the boundary. Changes nothing but `plan`.
+template <int Dim>
+Status plan_copies(const Mesh<Dim>& mesh, const Hull<Dim>& hull, double shrink, CopyPlan<Dim>& plan);
+
+}  // namespace pillowmesh
