@@ -1,0 +1,73 @@
+#include "pillowmesh/smooth/energy.h"
+
+namespace pillowmesh {
+namespace {
+
+/// Matrix of x -> v x x.
+Matrix<3> skew(const Point<3>& v) {
+  Matrix<3> m;
+  m << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0;
+  return m;
+}
+
+/// d c_j / d x for the vertex chosen by `end`.
+void cofactor_derivatives(const std::array<Point<2>, 2>&, int end, std::array<Matrix<2>, 2>& out) {
+  Matrix<2> turn;  // c_0 = -turn e_1, c_1 = turn e_0
+  turn << 0, -1, 1, 0;
+  const double s0 = end < 0 ? -1 : (end == 0 ? 1 : 0), s1 = end < 0 ? -1 : (end == 1 ? 1 : 0);
+  out[0] = -s1 * turn;
+  out[1] = s0 * turn;
+}
+void cofactor_derivatives(const std::array<Point<3>, 3>& e, int end, std::array<Matrix<3>, 3>& out) {
+  for (int j = 0; j < 3; ++j) {
+    const Point<3>&a = e[(j + 1) % 3], &b = e[(j + 2) % 3];  // c_j = a x b
+    if (end < 0)
+      out[j] = skew(b - a);
+    else if (end == (j + 1) % 3)
+      out[j] = -skew(b);
+    else if (end == (j + 2) % 3)
+      out[j] = skew(a);
+    else
+      out[j].setZero();
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void add_corner_derivatives(const std::array<Point<Dim>, Dim>& e, int sign, const CornerMetric<Dim>& metric, int end,
+                            Derivatives<Dim>& sum) {
+  const auto c = cofactors(e);
+  std::array<Matrix<Dim>, Dim> C;
+  cofactor_derivatives(e, end, C);
+  const double d = sign * c[0].dot(e[0]);
+  const Matrix<Dim> W = to_matrix(metric.inverse), M = to_matrix(metric.M);
+
+  double T = 0.0, N = 0.0;
+  Point<Dim> dT = Point<Dim>::Zero(), dN = Point<Dim>::Zero(), dd = Point<Dim>::Zero();
+  Matrix<Dim> HN = Matrix<Dim>::Zero();
+  for (int j = 0; j < Dim; ++j) {
+    const Point<Dim> Me = multiply(metric.M, e[j]), Wc = multiply(metric.inverse, c[j]);
+    T += e[j].dot(Me);
+    N += c[j].dot(Wc);
+    if (end < 0 || end == j) {
+      const double s = end < 0 ? -1.0 : 1.0;
+      dT += 2.0 * s * Me;
+      dd += s * sign * c[j];
+    }
+    const Matrix<Dim> Ct = C[j].transpose();
+    dN += 2.0 * (Ct * Wc);
+    HN += 2.0 * (Ct * W * C[j]);
+  }
+  const double i2 = 1.0 / (d * d), i3 = i2 / d, i4 = i2 * i2;
+  sum.value += T + N * i2;
+  sum.gradient += dT + i2 * dN - (2.0 * N * i3) * dd;
+  const Matrix<Dim> mixed = dN * dd.transpose();
+  sum.hessian += (end < 0 ? 2.0 * Dim : 2.0) * M + i2 * HN - (2.0 * i3) * (mixed + mixed.transpose()) +
+                 (6.0 * N * i4) * (dd * dd.transpose());
+}
+
+template void add_corner_derivatives(const std::array<Point<2>, 2>&, int, const CornerMetric<2>&, int, Derivatives<2>&);
+template void add_corner_derivatives(const std::array<Point<3>, 3>&, int, const CornerMetric<3>&, int, Derivatives<3>&);
+
+}  // namespace pillowmesh

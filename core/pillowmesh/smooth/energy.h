@@ -1,0 +1,100 @@
+// The barrier energy of a corner: how far it is from a unit right-angled corner in the metric.
+//
+// With the edge vectors e_d out of the corner as columns of A and G = A' M A:   f = tr G + tr G^-1.
+// f = 2 Dim for a unit square or cube corner, grows without bound as the corner degenerates. With d = det A and the
+// cofactor vectors c_j of A, tr G^-1 = sum c_j' M^-1 c_j / d^2; c_j and d are affine in the position of any one of the
+// corner's vertices, so that gradient and Hessian are exact and cheap while M is held fixed.
+#pragma once
+
+#include <array>
+
+#include "pillowmesh/mesh/jacobian.h"
+#include "pillowmesh/metric/tensor.h"
+
+namespace pillowmesh {
+
+template <int Dim>
+using Matrix = Eigen::Matrix<double, Dim, Dim, Eigen::DontAlign>;
+
+template <int Dim>
+inline Matrix<Dim> to_matrix(const SymTensor<Dim>& t) {
+  Matrix<Dim> m;
+  for (int i = 0; i < Dim; ++i)
+    for (int j = 0; j < Dim; ++j) m(i, j) = t(i, j);
+  return m;
+}
+
+/// The metric at a vertex in the form that the energy wants: M, and det(M) M^-1 divided by det(M).
+template <int Dim>
+struct CornerMetric {
+  SymTensor<Dim> M;
+  SymTensor<Dim> inverse;
+};
+
+template <int Dim>
+inline CornerMetric<Dim> corner_metric(const SymTensor<Dim>& M) {
+  CornerMetric<Dim> out{M, {}};
+  const double inv = 1.0 / determinant(M);
+  if constexpr (Dim == 2) {
+    out.inverse.m = {M.m[2] * inv, -M.m[1] * inv, M.m[0] * inv};
+  } else {
+    const double a = M.m[0], b = M.m[1], c = M.m[2], d = M.m[3], e = M.m[4], f = M.m[5];
+    out.inverse.m = {(c * f - e * e) * inv, (d * e - b * f) * inv, (a * f - d * d) * inv,
+                     (b * e - c * d) * inv, (b * d - a * e) * inv, (a * c - b * b) * inv};
+  }
+  return out;
+}
+
+template <int Dim>
+inline Point<Dim> multiply(const SymTensor<Dim>& M, const Point<Dim>& v) {
+  Point<Dim> out;
+  for (int i = 0; i < Dim; ++i) {
+    double sum = 0.0;
+    for (int j = 0; j < Dim; ++j) sum += M(i, j) * v[j];
+    out[i] = sum;
+  }
+  return out;
+}
+
+inline Point<3> vector_product(const Point<3>& a, const Point<3>& b) {
+  return Point<3>(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+}
+
+/// Cofactor vectors c_j of A: c_j . e_j = det A.
+inline std::array<Point<2>, 2> cofactors(const std::array<Point<2>, 2>& e) {
+  return {Point<2>(e[1][1], -e[1][0]), Point<2>(-e[0][1], e[0][0])};
+}
+inline std::array<Point<3>, 3> cofactors(const std::array<Point<3>, 3>& e) {
+  return {vector_product(e[1], e[2]), vector_product(e[2], e[0]), vector_product(e[0], e[1])};
+}
+
+/// The energy of a corner with edge vectors e, whose axes form a frame of the given sign (Cell::corner_sign).
+/// Infinite when the corner is degenerate or inside out.
+template <int Dim>
+inline double corner_energy(const std::array<Point<Dim>, Dim>& e, int sign, const CornerMetric<Dim>& metric) {
+  const auto c = cofactors(e);
+  const double d = sign * c[0].dot(e[0]);
+  if (!(d > 0)) return std::numeric_limits<double>::infinity();
+  double T = 0.0, N = 0.0;
+  for (int j = 0; j < Dim; ++j) {
+    T += dot(metric.M, e[j], e[j]);
+    N += dot(metric.inverse, c[j], c[j]);
+  }
+  return T + N / (d * d);
+}
+
+/// Sum of value, gradient and Hessian with respect to the position of one vertex.
+template <int Dim>
+struct Derivatives {
+  double value = 0.0;
+  Point<Dim> gradient = Point<Dim>::Zero();
+  Matrix<Dim> hessian = Matrix<Dim>::Zero();
+};
+
+/// Adds a corner's energy and its derivatives with respect to the position of the corner's own vertex (`end` < 0) or of
+/// the far end of edge `end`, the metric held fixed. \pre the corner is not degenerate.
+template <int Dim>
+void add_corner_derivatives(const std::array<Point<Dim>, Dim>& e, int sign, const CornerMetric<Dim>& metric, int end,
+                            Derivatives<Dim>& sum);
+
+}  // namespace pillowmesh

@@ -1,0 +1,259 @@
+#include "pillowmesh/smooth/relocate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pillowmesh/mesh/slide.h"
+
+namespace pillowmesh {
+namespace {
+
+/// Solves H x = -g for a symmetric H made positive definite by adding to its diagonal.
+template <int N>
+Eigen::Matrix<double, N, 1> descend(Eigen::Matrix<double, N, N> H, const Eigen::Matrix<double, N, 1>& g) {
+  double scale = 0.0;
+  for (int i = 0; i < N; ++i) scale = std::max(scale, std::abs(H(i, i)));
+  double shift = 0.0;
+  for (int attempt = 0; attempt < 12; ++attempt) {
+    // LDL' by hand: the sizes are 1 to 3.
+    Eigen::Matrix<double, N, N> L = Eigen::Matrix<double, N, N>::Identity();
+    Eigen::Matrix<double, N, 1> D, x;
+    bool positive = true;
+    for (int j = 0; j < N && positive; ++j) {
+      D[j] = H(j, j) + shift;
+      for (int k = 0; k < j; ++k) D[j] -= L(j, k) * L(j, k) * D[k];
+      positive = D[j] > 1e-8 * scale;
+      for (int i = j + 1; i < N && positive; ++i) {
+        L(i, j) = H(i, j);
+        for (int k = 0; k < j; ++k) L(i, j) -= L(i, k) * L(j, k) * D[k];
+        L(i, j) /= D[j];
+      }
+    }
+    if (positive) {
+      for (int i = 0; i < N; ++i) {
+        x[i] = -g[i];
+        for (int k = 0; k < i; ++k) x[i] -= L(i, k) * x[k];
+      }
+      for (int i = N - 1; i >= 0; --i) {
+        x[i] /= D[i];
+        for (int k = i + 1; k < N; ++k) x[i] -= L(k, i) * x[k];
+      }
+      return x;
+    }
+    shift = shift == 0.0 ? 1e-2 * scale : 4.0 * shift;
+  }
+  return -g / (scale > 0 ? scale : 1.0);
+}
+
+/// Directions in which a vertex may move: columns, `count` of them.
+template <int Dim>
+struct Tangent {
+  std::array<Point<Dim>, Dim> direction;
+  int count;
+};
+
+template <int Dim>
+Tangent<Dim> tangent_at(const Mesh<Dim>& mesh, VertexId v) {
+  Tangent<Dim> t{};
+  const VertexSupport s = mesh.support[v];
+  const auto& g = *mesh.geometry;
+  if (s.dim == Dim) {
+    for (int d = 0; d < Dim; ++d) t.direction[d] = Point<Dim>::Unit(d);
+    t.count = Dim;
+    return t;
+  }
+  t.count = s.dim;
+  if (s.dim == 1) {
+    Point<Dim> e;
+    if constexpr (Dim == 2)
+      e = g.points[g.facets[mesh.anchor[v]][1]] - g.points[g.facets[mesh.anchor[v]][0]];
+    else
+      e = g.points[g.segments[mesh.anchor[v]][1]] - g.points[g.segments[mesh.anchor[v]][0]];
+    t.direction[0] = e / std::sqrt(e.squaredNorm());
+  }
+  if constexpr (Dim == 3)
+    if (s.dim == 2) {
+      const auto& f = g.facets[mesh.anchor[v]];
+      const Point<3> a = g.points[f[3]] - g.points[f[0]], b = g.points[f[2]] - g.points[f[1]];
+      const Point<3> u = a / std::sqrt(a.squaredNorm());
+      Point<3> w = b - u.dot(b) * u;
+      t.direction[0] = u;
+      t.direction[1] = w / std::sqrt(w.squaredNorm());
+    }
+  return t;
+}
+
+template <int N, int Dim>
+Point<Dim> step_along(const Tangent<Dim>& t, const Derivatives<Dim>& d) {
+  Eigen::Matrix<double, N, N> H;
+  Eigen::Matrix<double, N, 1> g;
+  for (int i = 0; i < N; ++i) {
+    g[i] = t.direction[i].dot(d.gradient);
+    const Point<Dim> Hd = d.hessian * t.direction[i];
+    for (int j = 0; j < N; ++j) H(j, i) = t.direction[j].dot(Hd);
+  }
+  const auto x = descend<N>(H, g);
+  Point<Dim> step = Point<Dim>::Zero();
+  for (int i = 0; i < N; ++i) step += x[i] * t.direction[i];
+  return step;
+}
+
+}  // namespace
+
+template <int Dim>
+Relocator<Dim>::Relocator(Mesh<Dim>& mesh, const MetricField<Dim>& field, RelocateOptions options)
+    : mesh_(mesh), field_(field), options_(options) {
+  metric_.resize(mesh.points.size());
+  active_.assign(mesh.points.size(), 0);
+  std::array<SymTensor<Dim>, 256> batch;
+  for (std::size_t i = 0; i < mesh.points.size(); i += batch.size()) {
+    const std::size_t n = std::min(batch.size(), mesh.points.size() - i);
+    field.evaluate(std::span(mesh.points).subspan(i, n), batch);
+    for (std::size_t k = 0; k < n; ++k) metric_[i + k] = corner_metric(batch[k]);
+  }
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v)
+    active_[v] = mesh.vertex_cell[v] != kNone && mesh.support[v].dim > 0;
+}
+
+template <int Dim>
+void Relocator<Dim>::collect_terms(VertexId v) {
+  using C = Cell<Dim>;
+  vertex_star(mesh_, v, star_);
+  terms_.clear();
+  const auto add = [&](CellId c, int corner, int end) {
+    Term t;
+    t.origin = mesh_.cells[c][corner];
+    for (int d = 0; d < Dim; ++d) t.ends[d] = mesh_.cells[c][corner ^ (1 << d)];
+    t.sign = static_cast<std::int8_t>(C::corner_sign(corner));
+    t.end = static_cast<std::int8_t>(end);
+    terms_.push_back(t);
+  };
+  for (const auto& [c, corner] : star_) {
+    add(c, corner, -1);
+    for (int d = 0; d < Dim; ++d) add(c, corner ^ (1 << d), d);
+  }
+}
+
+template <int Dim>
+double Relocator<Dim>::energy_at(VertexId v, const Point<Dim>& position, const CornerMetric<Dim>& metric) const {
+  double sum = 0.0;
+  std::array<Point<Dim>, Dim> e;
+  for (const Term& t : terms_) {
+    if (t.end < 0) {
+      for (int d = 0; d < Dim; ++d) e[d] = mesh_.points[t.ends[d]] - position;
+      sum += corner_energy(e, t.sign, metric);
+    } else {
+      const Point<Dim>& o = mesh_.points[t.origin];
+      for (int d = 0; d < Dim; ++d) e[d] = (t.ends[d] == v ? position : mesh_.points[t.ends[d]]) - o;
+      sum += corner_energy(e, t.sign, metric_[t.origin]);
+    }
+  }
+  return sum;
+}
+
+template <int Dim>
+Derivatives<Dim> Relocator<Dim>::derivatives_at(VertexId v) const {
+  Derivatives<Dim> sum;
+  std::array<Point<Dim>, Dim> e;
+  for (const Term& t : terms_) {
+    for (int d = 0; d < Dim; ++d) e[d] = mesh_.points[t.ends[d]] - mesh_.points[t.origin];
+    add_corner_derivatives(e, t.sign, metric_[t.origin], t.end, sum);
+  }
+  (void)v;
+  return sum;
+}
+
+/// The share of the gradient that comes from the metric at the vertex changing as it moves: central differences over
+/// `reach`, wide enough to see over a kink.
+template <int Dim>
+void Relocator<Dim>::add_metric_gradient(VertexId v, double reach, Derivatives<Dim>& d) const {
+  std::array<Point<Dim>, 2 * Dim> at;
+  std::array<SymTensor<Dim>, 2 * Dim> M;
+  for (int i = 0; i < Dim; ++i)
+    for (int s = 0; s < 2; ++s) at[2 * i + s] = mesh_.points[v] + (s ? reach : -reach) * Point<Dim>::Unit(i);
+  field_.evaluate(at, M);
+  std::array<CornerMetric<Dim>, 2 * Dim> metric;
+  for (int i = 0; i < 2 * Dim; ++i) metric[i] = corner_metric(M[i]);
+  std::array<double, 2 * Dim> value{};
+  std::array<Point<Dim>, Dim> e;
+  for (const Term& t : terms_) {
+    if (t.end >= 0) continue;
+    for (int k = 0; k < Dim; ++k) e[k] = mesh_.points[t.ends[k]] - mesh_.points[v];
+    for (int i = 0; i < 2 * Dim; ++i) value[i] += corner_energy(e, t.sign, metric[i]);
+  }
+  for (int i = 0; i < Dim; ++i) d.gradient[i] += (value[2 * i + 1] - value[2 * i]) / (2 * reach);
+}
+
+template <int Dim>
+bool Relocator<Dim>::newton_step(VertexId v, const Derivatives<Dim>& d, Point<Dim>& step) const {
+  const Tangent<Dim> t = tangent_at(mesh_, v);
+  if (t.count == 1) step = step_along<1>(t, d);
+  if (t.count == 2) step = step_along<2>(t, d);
+  if constexpr (Dim == 3)
+    if (t.count == 3) step = step_along<3>(t, d);
+  return t.count > 0 && step.squaredNorm() > 0;
+}
+
+template <int Dim>
+double Relocator<Dim>::relocate(VertexId v) {
+  collect_terms(v);
+  double shortest2 = std::numeric_limits<double>::infinity();
+  for (const Term& t : terms_) {
+    if (t.end >= 0) continue;
+    for (const VertexId w : t.ends) shortest2 = std::min(shortest2, (mesh_.points[w] - mesh_.points[v]).squaredNorm());
+  }
+  const double shortest = std::sqrt(shortest2);
+  Derivatives<Dim> d = derivatives_at(v);
+  last_energy_ = d.value;
+  last_decrease_ = 0.0;
+  add_metric_gradient(v, 0.02 * shortest, d);
+  Point<Dim> step;
+  if (!newton_step(v, d, step)) return 0.0;
+  const double length = std::sqrt(step.squaredNorm());
+  if (length > 0.8 * shortest) step *= 0.8 * shortest / length;
+
+  const double slope = d.gradient.dot(step);
+  if (!(slope < 0)) return 0.0;
+  double t = 1.0;
+  for (int attempt = 0; attempt < 5; ++attempt, t *= 0.4) {
+    if (dot(metric_[v].M, step, step) * t * t < 1e-3 * options_.rest * options_.rest) return 0.0;
+    Index anchor = mesh_.anchor[v];
+    const Point<Dim> target = slide(*mesh_.geometry, mesh_.support[v], anchor, Point<Dim>(mesh_.points[v] + t * step));
+    const SymTensor<Dim> M = field_.evaluate(target);
+    const CornerMetric<Dim> metric = corner_metric(M);
+    const double energy = energy_at(v, target, metric);
+    if (!(energy <= d.value + 1e-4 * t * slope)) continue;
+    const Point<Dim> move = target - mesh_.points[v];
+    const double moved = std::sqrt(dot(metric_[v].M, move, move));
+    mesh_.points[v] = target;
+    mesh_.anchor[v] = anchor;
+    metric_[v] = metric;
+    last_decrease_ = d.value - energy;
+    return moved;
+  }
+  return 0.0;
+}
+
+template <int Dim>
+SweepResult Relocator<Dim>::sweep() {
+  SweepResult result;
+  for (VertexId v = 0; v < mesh_.vertex_count(); ++v) {
+    if (!active_[v]) continue;
+    active_[v] = 0;
+    const double moved = relocate(v);
+    result.energy += last_energy_;
+    if (moved == 0.0) continue;
+    ++result.moved;
+    result.decrease += last_decrease_;
+    if (moved < options_.rest) continue;
+    for (const auto& [c, corner] : star_)
+      for (const VertexId w : mesh_.cells[c]) active_[w] = mesh_.support[w].dim > 0;
+  }
+  result.converged = result.moved == 0 || result.decrease <= options_.converged * result.energy;
+  return result;
+}
+
+template class Relocator<2>;
+template class Relocator<3>;
+
+}  // namespace pillowmesh

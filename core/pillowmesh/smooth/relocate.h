@@ -1,0 +1,64 @@
+// The anisotropic smoother: vertices move, one at a time, to lower the barrier energy (energy.h). [Paper] sections 4, 6.
+#pragma once
+
+#include <vector>
+
+#include "pillowmesh/metric/field.h"
+#include "pillowmesh/smooth/energy.h"
+#include "pillowmesh/mesh/topology.h"
+
+namespace pillowmesh {
+
+struct RelocateOptions {
+  /// A vertex rests when it and its neighbours last moved less than this, in units of the metric.
+  double rest = 5e-3;
+  /// The smoother stops when a sweep lowers the energy by less than this share.
+  double converged = 2e-4;
+};
+
+struct SweepResult {
+  std::int64_t moved = 0;    ///< vertices
+  double decrease = 0.0;     ///< of the energy
+  double energy = 0.0;       ///< sum over the vertices visited, before they moved
+  bool converged = false;    ///< nothing is left to do
+};
+
+/// Relocates the vertices of a mesh. Vertices inside move freely, those on curves and patches slide, corners stay. A
+/// vertex moves only to where the energy of the cells around it falls, so no cell is ever turned inside out.
+template <int Dim>
+class Relocator {
+ public:
+  /// Both must outlive the relocator; the topology of the mesh must not change meanwhile.
+  Relocator(Mesh<Dim>& mesh, const MetricField<Dim>& field, RelocateOptions options = {});
+
+  /// Visits every vertex that may gain, in order of their numbers. Cost: linear in the vertices visited.
+  SweepResult sweep();
+
+  /// Tries to lower the energy at one vertex. \return the metric length of its move, 0 when it stays.
+  double relocate(VertexId v);
+
+ private:
+  struct Term {  ///< a corner whose energy depends on the vertex being moved
+    std::array<VertexId, Dim> ends;
+    VertexId origin;
+    std::int8_t sign;
+    std::int8_t end;  ///< which of its edges ends at the vertex; -1: the vertex is the corner
+  };
+
+  void collect_terms(VertexId v);
+  [[nodiscard]] double energy_at(VertexId v, const Point<Dim>& position, const CornerMetric<Dim>& metric) const;
+  [[nodiscard]] Derivatives<Dim> derivatives_at(VertexId v) const;
+  void add_metric_gradient(VertexId v, double reach, Derivatives<Dim>& d) const;
+  bool newton_step(VertexId v, const Derivatives<Dim>& d, Point<Dim>& step) const;
+
+  Mesh<Dim>& mesh_;
+  const MetricField<Dim>& field_;
+  RelocateOptions options_;
+  std::vector<CornerMetric<Dim>> metric_;  ///< per vertex
+  std::vector<std::uint8_t> active_;       ///< per vertex: may gain
+  std::vector<CellCorner> star_;
+  std::vector<Term> terms_;
+  double last_decrease_ = 0.0, last_energy_ = 0.0;
+};
+
+}  // namespace pillowmesh
