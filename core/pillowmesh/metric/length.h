@@ -3,7 +3,6 @@
 
 #include <array>
 #include <span>
-#include <vector>
 
 #include "pillowmesh/metric/field.h"
 
@@ -20,7 +19,9 @@ struct LengthOptions {
   int max_depth = 30;
 };
 
-/// Metric length of the segment from a to b: adaptive Gauss-Kronrod quadrature that bisects at kinks.
+/// Metric length of the segment from a to b: nested Gauss-Lobatto-Kronrod rules of 4, 7 and 13 points, bisecting where
+/// they disagree, so that kinks are closed in on. The same bits for (a, b) and (b, a), alone and among others. Not a
+/// number where the metric is not. Cost: 7 or 13 evaluations of the metric where it is smooth.
 template <int Dim>
 double edge_length(const MetricField<Dim>& field, const Point<Dim>& a, const Point<Dim>& b,
                    const LengthOptions& options = {});
@@ -31,5 +32,17 @@ template <int Dim>
 void edge_lengths(const MetricField<Dim>& field, std::span<const Point<Dim>> points,
                   std::span<const std::array<VertexId, 2>> edges, std::span<double> lengths,
                   const LengthOptions& options = {});
+
+/// tagged[i] = 1 where edge i is longer than `threshold`, else 0: looks only as closely as the decision needs, 7
+/// evaluations for most edges. Right for all lengths further than 1e-6 * threshold from the threshold.
+/// \param panel as in LengthOptions. \pre tagged.size() == edges.size()
+template <int Dim>
+void tag_long_edges(const MetricField<Dim>& field, std::span<const Point<Dim>> points,
+                    std::span<const std::array<VertexId, 2>> edges, double threshold, double panel,
+                    std::span<unsigned char> tagged);
+
+/// A panel that misses no feature wider than a thousandth of the domain: the diagonal of the bounding box / 256.
+template <int Dim>
+double default_panel(std::span<const Point<Dim>> points);
 
 }  // namespace pillowmesh

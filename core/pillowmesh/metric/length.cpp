@@ -1,0 +1,326 @@
+#include "pillowmesh/metric/length.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace pillowmesh {
+namespace {
+
+// Lobatto's 4 points, Kronrod's extension to 7, and that to 13: exact to degree 5, 9, 17. Each rule keeps the points of
+// the one before. They include the ends, so that no kink hides between the outermost point and the end, where the rules
+// would agree on a wrong value. [W. Gander, W. Gautschi, Adaptive Quadrature - Revisited, BIT 40 (2000)]
+constexpr double kNode4 = 0.4472135954999579392818347;
+constexpr double kNode7 = 0.8164965809277260327324280;
+constexpr double kNode13[3] = {0.2363831996621498802822238, 0.6418533423457813057812355, 0.9428824156954797190563518};
+
+// Sampling order: the middle, then pairs -+node.
+constexpr double kFirst[7] = {0.0, -1.0, 1.0, -kNode4, kNode4, -kNode7, kNode7};
+constexpr double kMore[6] = {-kNode13[0], kNode13[0], -kNode13[1], kNode13[1], -kNode13[2], kNode13[2]};
+
+constexpr double kWeight4[2] = {0.1666666666666666666666667, 0.8333333333333333333333333};
+constexpr double kWeight7[4] = {0.4571428571428571428571429, 0.05238095238095238095238095, 0.4251700680272108843537415,
+                                0.2938775510204081632653061};
+constexpr double kWeight13[7] = {0.2426110719014077337996410, 0.01582719197348018308716999, 0.1997734052268585267920680,
+                                 0.1550719873365853962536360, 0.2249264653333395270160177,  0.1888215739601824544200053,
+                                 0.09427384021885004553128251};
+
+// An edge as the integrand sees it. The end point with the smaller coordinates comes first, so that the length does not
+// depend on the direction.
+template <int Dim>
+struct Edge {
+  Point<Dim> origin;
+  Point<Dim> vector;
+
+  Edge() = default;
+  Edge(const Point<Dim>& a, const Point<Dim>& b) {
+    const bool forward = std::lexicographical_compare(a.data(), a.data() + Dim, b.data(), b.data() + Dim);
+    origin = forward ? a : b;
+    vector = forward ? Point<Dim>(b - a) : Point<Dim>(a - b);
+  }
+  [[nodiscard]] double euclidean_length() const {
+    double sum = 0.0;
+    for (int d = 0; d < Dim; ++d) sum += vector[d] * vector[d];
+    return std::sqrt(sum);
+  }
+};
+
+// A piece of an edge: the parameters middle -+ half.
+struct Piece {
+  Index edge;
+  double middle;
+  double half;
+};
+
+// A piece with what has been sampled of it.
+struct Sampled {
+  Piece piece;
+  double first[7];
+  double value;  // of the 7-point rule
+  double error;  // its difference from the 4-point rule
+};
+
+double rule4(const double* f) { return kWeight4[0] * (f[1] + f[2]) + kWeight4[1] * (f[3] + f[4]); }
+double rule7(const double* f) {
+  return kWeight7[0] * f[0] + kWeight7[1] * (f[1] + f[2]) + kWeight7[2] * (f[3] + f[4]) + kWeight7[3] * (f[5] + f[6]);
+}
+double rule13(const double* f, const double* g) {
+  double sum = kWeight13[0] * f[0];
+  for (int i = 0; i < 3; ++i) sum += kWeight13[1 + i] * (f[2 * i + 1] + f[2 * i + 2]);
+  for (int i = 0; i < 3; ++i) sum += kWeight13[4 + i] * (g[2 * i] + g[2 * i + 1]);
+  return sum;
+}
+
+// Fills lanes with sample points of pieces and evaluates |dP/dt| in the metric there.
+template <int Dim>
+class Sampler {
+ public:
+  explicit Sampler(const MetricField<Dim>& field) : field_(field) {}
+
+  void add(const Edge<Dim>& edge, const Piece& piece, const double* nodes, int count) {
+    for (int i = 0; i < count; ++i) {
+      const double t = piece.middle + piece.half * nodes[i];
+      for (int d = 0; d < Dim; ++d) {
+        points_[d][used_ + i] = edge.origin[d] + t * edge.vector[d];
+        vectors_[d][used_ + i] = edge.vector[d];
+      }
+    }
+    used_ += count;
+  }
+
+  const double* evaluate() {
+    field_.evaluate(points_, used_, tensors_);
+    const auto& m = tensors_;
+    const auto& v = vectors_;
+    for (int i = 0; i < used_; ++i) {
+      double square = m[0][i] * v[0][i] * v[0][i] + 2.0 * m[1][i] * v[0][i] * v[1][i] + m[2][i] * v[1][i] * v[1][i];
+      if constexpr (Dim == 3) {
+        square += 2.0 * v[2][i] * (m[3][i] * v[0][i] + m[4][i] * v[1][i]) + m[5][i] * v[2][i] * v[2][i];
+      }
+      // Rounding may leave a tiny negative number; what is not a number stays so.
+      speed_[i] = std::sqrt(square < 0.0 ? 0.0 : square);
+    }
+    used_ = 0;
+    return speed_.data();
+  }
+
+ private:
+  const MetricField<Dim>& field_;
+  PointLanes<Dim> points_;
+  PointLanes<Dim> vectors_;
+  TensorLanes<Dim> tensors_;
+  Lanes speed_;
+  int used_ = 0;
+};
+
+// Integrates a chunk of edges together, breadth first: pieces in order, then those of their halves that are needed. The
+// order in which the pieces of one edge are summed is thus independent of the other edges.
+template <int Dim>
+class Integrator {
+ public:
+  static constexpr int kChunk = 72;  // edges; 9 pieces fill a batch of 64 lanes with 7 points each
+
+  Integrator(const MetricField<Dim>& field, const LengthOptions& options) : sampler_(field), options_(options) {}
+
+  void clear() {
+    edges_ = 0;
+    pieces_.clear();
+  }
+  [[nodiscard]] bool full() const { return edges_ == kChunk; }
+  [[nodiscard]] int edge_count() const { return edges_; }
+
+  void add(const Edge<Dim>& edge) {
+    constexpr double kMostPanels = 4096.0;
+    const double wanted = options_.panel > 0.0 ? std::ceil(edge.euclidean_length() / options_.panel) : 1.0;
+    const int panels = wanted > 1.0 ? static_cast<int>(std::min(wanted, kMostPanels)) : 1;
+    const double half = 0.5 / panels;
+    for (int i = 0; i < panels; ++i) pieces_.push_back({edges_, (2 * i + 1) * half, half});
+    edge_[edges_++] = edge;
+  }
+
+  /// The 7-point rule on every piece: estimates of the lengths and of their errors.
+  void sample() {
+    sampled_.resize(pieces_.size());
+    constexpr std::size_t kBatch = kLanes / 7;
+    for (std::size_t start = 0; start < pieces_.size(); start += kBatch) {
+      const std::size_t end = std::min(pieces_.size(), start + kBatch);
+      for (std::size_t i = start; i < end; ++i) sampler_.add(edge_[pieces_[i].edge], pieces_[i], kFirst, 7);
+      const double* f = sampler_.evaluate();
+      for (std::size_t i = start; i < end; ++i, f += 7) {
+        Sampled& s = sampled_[i];
+        s.piece = pieces_[i];
+        std::copy(f, f + 7, s.first);
+        s.value = s.piece.half * rule7(f);
+        s.error = std::fabs(s.value - s.piece.half * rule4(f));
+      }
+    }
+  }
+
+  void estimate() {
+    sample();
+    for (int e = 0; e < edges_; ++e) length_[e] = error_[e] = 0.0;
+    for (const Sampled& s : sampled_) {
+      length_[s.piece.edge] += s.value;
+      error_[s.piece.edge] += s.error;
+    }
+  }
+
+  void integrate() {
+    estimate();
+    for (int e = 0; e < edges_; ++e) {
+      allowed_[e] = options_.tolerance * length_[e];
+      length_[e] = 0.0;
+    }
+    for (int depth = 0; !pieces_.empty(); ++depth) {
+      if (depth > 0) sample();
+      settle(depth >= options_.max_depth);
+    }
+  }
+
+  [[nodiscard]] double length(int e) const { return length_[e]; }
+  /// Of estimate(): twice what the rules disagree by.
+  [[nodiscard]] double error(int e) const { return 2.0 * error_[e]; }
+
+ private:
+  // Adds the pieces that have converged; leaves in pieces_ the halves of the others.
+  void settle(bool last) {
+    std::size_t doubtful = 0;
+    for (const Sampled& s : sampled_) {
+      if (s.error > allowed_[s.piece.edge]) {
+        sampled_[doubtful++] = s;
+      } else {
+        length_[s.piece.edge] += s.value;
+      }
+    }
+    pieces_.clear();
+    constexpr std::size_t kBatch = kLanes / 6;
+    for (std::size_t start = 0; start < doubtful; start += kBatch) {
+      const std::size_t end = std::min(doubtful, start + kBatch);
+      for (std::size_t i = start; i < end; ++i) {
+        sampler_.add(edge_[sampled_[i].piece.edge], sampled_[i].piece, kMore, 6);
+      }
+      const double* g = sampler_.evaluate();
+      for (std::size_t i = start; i < end; ++i, g += 6) {
+        const Sampled& s = sampled_[i];
+        const double value = s.piece.half * rule13(s.first, g);
+        if (!last && std::fabs(value - s.value) > allowed_[s.piece.edge]) {
+          const double half = 0.5 * s.piece.half;
+          pieces_.push_back({s.piece.edge, s.piece.middle - half, half});
+          pieces_.push_back({s.piece.edge, s.piece.middle + half, half});
+        } else {
+          length_[s.piece.edge] += value;
+        }
+      }
+    }
+  }
+
+  Sampler<Dim> sampler_;
+  LengthOptions options_;
+  int edges_ = 0;
+  std::array<Edge<Dim>, kChunk> edge_;
+  std::array<double, kChunk> length_, error_, allowed_;
+  std::vector<Piece> pieces_;
+  std::vector<Sampled> sampled_;
+};
+
+}  // namespace
+
+template <int Dim>
+double edge_length(const MetricField<Dim>& field, const Point<Dim>& a, const Point<Dim>& b,
+                   const LengthOptions& options) {
+  const Edge<Dim> edge(a, b);
+  if (!(options.panel > 0.0) || edge.euclidean_length() <= options.panel) {
+    // One piece that converges, the usual case, without the machinery: the same sums as Integrator's.
+    Sampler<Dim> sampler(field);
+    const Piece whole{0, 0.5, 0.5};
+    sampler.add(edge, whole, kFirst, 7);
+    sampler.add(edge, whole, kMore, 6);
+    const double* f = sampler.evaluate();
+    const double value7 = whole.half * rule7(f);
+    const double allowed = options.tolerance * value7;
+    if (!(std::fabs(value7 - whole.half * rule4(f)) > allowed)) return value7;
+    const double value13 = whole.half * rule13(f, f + 7);
+    if (!(std::fabs(value13 - value7) > allowed)) return value13;
+  }
+  Integrator<Dim> integrator(field, options);
+  integrator.add(edge);
+  integrator.integrate();
+  return integrator.length(0);
+}
+
+template <int Dim>
+void edge_lengths(const MetricField<Dim>& field, std::span<const Point<Dim>> points,
+                  std::span<const std::array<VertexId, 2>> edges, std::span<double> lengths,
+                  const LengthOptions& options) {
+  Integrator<Dim> integrator(field, options);
+  for (std::size_t start = 0; start < edges.size();) {
+    integrator.clear();
+    std::size_t end = start;
+    for (; end < edges.size() && !integrator.full(); ++end)
+      integrator.add({points[edges[end][0]], points[edges[end][1]]});
+    integrator.integrate();
+    for (std::size_t i = start; i < end; ++i) lengths[i] = integrator.length(static_cast<int>(i - start));
+    start = end;
+  }
+}
+
+template <int Dim>
+void tag_long_edges(const MetricField<Dim>& field, std::span<const Point<Dim>> points,
+                    std::span<const std::array<VertexId, 2>> edges, double threshold, double panel,
+                    std::span<unsigned char> tagged) {
+  const LengthOptions options{.tolerance = 1e-7, .panel = panel};
+  const double margin = 1e-7 * threshold;
+  Integrator<Dim> quick(field, options);
+  Integrator<Dim> exact(field, options);
+  std::array<std::size_t, Integrator<Dim>::kChunk> doubtful;
+  const auto decide_doubtful = [&] {
+    exact.integrate();
+    for (int k = 0; k < exact.edge_count(); ++k) tagged[doubtful[k]] = exact.length(k) > threshold ? 1 : 0;
+    exact.clear();
+  };
+  for (std::size_t start = 0; start < edges.size();) {
+    quick.clear();
+    std::size_t end = start;
+    for (; end < edges.size() && !quick.full(); ++end) quick.add({points[edges[end][0]], points[edges[end][1]]});
+    quick.estimate();
+    for (std::size_t i = start; i < end; ++i) {
+      const int k = static_cast<int>(i - start);
+      if (std::fabs(quick.length(k) - threshold) > quick.error(k) + margin) {
+        tagged[i] = quick.length(k) > threshold ? 1 : 0;
+        continue;
+      }
+      doubtful[exact.edge_count()] = i;
+      exact.add({points[edges[i][0]], points[edges[i][1]]});
+      if (exact.full()) decide_doubtful();
+    }
+    start = end;
+  }
+  decide_doubtful();
+}
+
+template <int Dim>
+double default_panel(std::span<const Point<Dim>> points) {
+  if (points.empty()) return 0.0;
+  Point<Dim> low = points[0];
+  Point<Dim> high = points[0];
+  for (const Point<Dim>& p : points) {
+    for (int d = 0; d < Dim; ++d) {
+      low[d] = std::min(low[d], p[d]);
+      high[d] = std::max(high[d], p[d]);
+    }
+  }
+  return Edge<Dim>(low, high).euclidean_length() / 256.0;
+}
+
+#define PILLOWMESH_INSTANTIATE(D)                                                                                      \
+  template double edge_length<D>(const MetricField<D>&, const Point<D>&, const Point<D>&, const LengthOptions&);       \
+  template void edge_lengths<D>(const MetricField<D>&, std::span<const Point<D>>,                                      \
+                                std::span<const std::array<VertexId, 2>>, std::span<double>, const LengthOptions&);    \
+  template void tag_long_edges<D>(const MetricField<D>&, std::span<const Point<D>>,                                    \
+                                  std::span<const std::array<VertexId, 2>>, double, double, std::span<unsigned char>); \
+  template double default_panel<D>(std::span<const Point<D>>);
+PILLOWMESH_INSTANTIATE(2)
+PILLOWMESH_INSTANTIATE(3)
+#undef PILLOWMESH_INSTANTIATE
+
+}  // namespace pillowmesh
