@@ -1,0 +1,64 @@
+#include <bit>
+
+#include "pillowmesh/io/vtk.h"
+
+namespace pillowmesh {
+namespace {
+
+/// Legacy binary files are big-endian.
+template <class T>
+void big_endian(Sink& sink, T value) {
+  char bytes[sizeof(T)];
+  std::memcpy(bytes, &value, sizeof(T));
+  for (std::size_t i = 0; i < sizeof(T); ++i)
+    sink << bytes[std::endian::native == std::endian::little ? sizeof(T) - 1 - i : i];
+}
+
+}  // namespace
+
+template <int Dim>
+void write_vtk(const MeshInput<Dim>& mesh, Sink& sink, bool binary) {
+  const auto value = [&](auto v, char separator) {
+    if (binary) {
+      big_endian(sink, v);
+    } else {
+      sink << v << separator;
+    }
+  };
+  const auto end_values = [&] {
+    if (binary) sink << '\n';
+  };
+  sink << "# vtk DataFile Version 3.0\npillowmesh\n" << (binary ? "BINARY\n" : "ASCII\n");
+  sink << "DATASET UNSTRUCTURED_GRID\nPOINTS " << mesh.points.size() << " double\n";
+  for (const Point<Dim>& p : mesh.points) {
+    value(p[0], ' ');
+    value(p[1], ' ');
+    value(Dim == 3 ? p[Dim - 1] : 0.0, '\n');
+  }
+  end_values();
+
+  constexpr std::size_t corners = Cell<Dim>::corners, facet_corners = Cell<Dim>::facet_corners;
+  const std::size_t total = mesh.cells.size() + mesh.facets.size();
+  sink << "CELLS " << total << ' ' << mesh.cells.size() * (corners + 1) + mesh.facets.size() * (facet_corners + 1) << '\n';
+  const auto element = [&](const auto& vertices) {
+    const auto n = static_cast<Index>(vertices.size());
+    value(n, ' ');
+    for (Index k = 0; k < n; ++k) value(vertices[static_cast<std::size_t>(k)], k + 1 == n ? '\n' : ' ');
+  };
+  for (const auto& cell : mesh.cells) element(file_order(cell));
+  for (const auto& facet : mesh.facets) element(file_order(facet.vertices));
+  end_values();
+
+  sink << "CELL_TYPES " << total << '\n';
+  for (std::size_t i = 0; i < total; ++i)
+    value(static_cast<Index>(i < mesh.cells.size() ? kVtkCell<Dim> : kVtkFacet<Dim>), '\n');
+  end_values();
+  sink << "CELL_DATA " << total << "\nSCALARS group int 1\nLOOKUP_TABLE default\n";
+  for (Index group : group_array(mesh)) value(group, '\n');
+  end_values();
+}
+
+template void write_vtk<2>(const MeshInput<2>&, Sink&, bool);
+template void write_vtk<3>(const MeshInput<3>&, Sink&, bool);
+
+}  // namespace pillowmesh
