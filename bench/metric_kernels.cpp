@@ -1,0 +1,60 @@
+// What a metric costs: tensors per second at points, and exact edge lengths per second.
+#include <benchmark/benchmark.h>
+
+#include "pillowmesh/mesh/primitives.h"
+#include "pillowmesh/mesh/topology.h"
+#include "pillowmesh/metric/gallery.h"
+#include "pillowmesh/metric/length.h"
+
+namespace {
+
+using namespace pillowmesh;
+
+MetricField<2> field_of(const char* name) { return *MetricField<2>::from_formula(find_case(name)->formula); }
+
+Mesh<2> mesh_of(const char* name) { return std::get<Mesh<2>>(*parse_grid(find_case(name)->mesh)); }
+
+/// A grid of n x n cells on the case's domain.
+Mesh<2> fine_mesh_of(const char* name, int n) {
+  const Mesh<2> coarse = mesh_of(name);
+  Point<2> low = coarse.points[0], high = coarse.points[0];
+  for (const auto& p : coarse.points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return make_grid<2>({n, n}, low, high);
+}
+
+void evaluate_metric(benchmark::State& state, const char* name) {
+  const auto field = field_of(name);
+  const auto mesh = fine_mesh_of(name, 100);
+  std::vector<SymTensor<2>> tensors(mesh.points.size());
+  for (auto _ : state) {
+    field.evaluate(mesh.points, tensors);
+    benchmark::DoNotOptimize(tensors.data());
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(tensors.size()));
+}
+BENCHMARK_CAPTURE(evaluate_metric, iso2d, "iso2d");
+BENCHMARK_CAPTURE(evaluate_metric, aniso2d, "aniso2d");
+BENCHMARK_CAPTURE(evaluate_metric, circle2d, "circle2d");
+
+void measure_edges(benchmark::State& state, const char* name) {
+  const auto field = field_of(name);
+  const auto mesh = fine_mesh_of(name, static_cast<int>(state.range(0)));
+  const auto edges = unique_edges(mesh);
+  std::vector<double> lengths(edges.size());
+  for (auto _ : state) {
+    edge_lengths<2>(field, mesh.points, edges, lengths);
+    benchmark::DoNotOptimize(lengths.data());
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(edges.size()));
+}
+// Long edges see much of the metric, short ones little: both occur in a run.
+BENCHMARK_CAPTURE(measure_edges, iso2d, "iso2d")->Arg(10)->Arg(100);
+BENCHMARK_CAPTURE(measure_edges, aniso2d, "aniso2d")->Arg(10)->Arg(100);
+BENCHMARK_CAPTURE(measure_edges, circle2d, "circle2d")->Arg(10)->Arg(100);
+
+}  // namespace
+
+BENCHMARK_MAIN();
