@@ -11,14 +11,14 @@ Matrix<3> skew(const Point<3>& v) {
 }
 
 /// d c_j / d x for the vertex chosen by `end`.
-void cofactor_derivatives(const std::array<Point<2>, 2>&, int end, std::array<Matrix<2>, 2>& out) {
+void cofactor_derivatives(const Frame<2>&, int end, std::array<Matrix<2>, 2>& out) {
   Matrix<2> turn;  // c_0 = -turn e_1, c_1 = turn e_0
   turn << 0, -1, 1, 0;
   const double s0 = end < 0 ? -1 : (end == 0 ? 1 : 0), s1 = end < 0 ? -1 : (end == 1 ? 1 : 0);
   out[0] = -s1 * turn;
   out[1] = s0 * turn;
 }
-void cofactor_derivatives(const std::array<Point<3>, 3>& e, int end, std::array<Matrix<3>, 3>& out) {
+void cofactor_derivatives(const Frame<3>& e, int end, std::array<Matrix<3>, 3>& out) {
   for (int j = 0; j < 3; ++j) {
     const Point<3>&a = e[(j + 1) % 3], &b = e[(j + 2) % 3];  // c_j = a x b
     if (end < 0)
@@ -35,7 +35,7 @@ void cofactor_derivatives(const std::array<Point<3>, 3>& e, int end, std::array<
 }  // namespace
 
 template <int Dim>
-void add_corner_derivatives(const std::array<Point<Dim>, Dim>& e, int sign, const CornerMetric<Dim>& metric, int end,
+void add_corner_derivatives(const Frame<Dim>& e, int sign, const CornerMetric<Dim>& metric, int end,
                             Derivatives<Dim>& sum) {
   const auto c = cofactors(e);
   std::array<Matrix<Dim>, Dim> C;
@@ -67,7 +67,7 @@ void add_corner_derivatives(const std::array<Point<Dim>, Dim>& e, int sign, cons
                  (6.0 * N * i4) * (dd * dd.transpose());
 }
 
-template void add_corner_derivatives(const std::array<Point<2>, 2>&, int, const CornerMetric<2>&, int, Derivatives<2>&);
-template void add_corner_derivatives(const std::array<Point<3>, 3>&, int, const CornerMetric<3>&, int, Derivatives<3>&);
+template void add_corner_derivatives(const Frame<2>&, int, const CornerMetric<2>&, int, Derivatives<2>&);
+template void add_corner_derivatives(const Frame<3>&, int, const CornerMetric<3>&, int, Derivatives<3>&);
 
 }  // namespace pillowmesh

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "pillowmesh/mesh/jacobian.h"
 #include "pillowmesh/metric/tensor.h"
@@ -15,6 +16,14 @@ namespace pillowmesh {
 
 template <int Dim>
 using Matrix = Eigen::Matrix<double, Dim, Dim, Eigen::DontAlign>;
+
+/// The edge vectors out of a corner, in axis order.
+template <int Dim>
+struct Frame {
+  std::array<Point<Dim>, Dim> e;
+  Point<Dim>& operator[](int d) { return e[d]; }
+  const Point<Dim>& operator[](int d) const { return e[d]; }
+};
 
 template <int Dim>
 inline Matrix<Dim> to_matrix(const SymTensor<Dim>& t) {
@@ -61,17 +70,17 @@ inline Point<3> vector_product(const Point<3>& a, const Point<3>& b) {
 }
 
 /// Cofactor vectors c_j of A: c_j . e_j = det A.
-inline std::array<Point<2>, 2> cofactors(const std::array<Point<2>, 2>& e) {
-  return {Point<2>(e[1][1], -e[1][0]), Point<2>(-e[0][1], e[0][0])};
+inline Frame<2> cofactors(const Frame<2>& e) {
+  return {{Point<2>(e[1][1], -e[1][0]), Point<2>(-e[0][1], e[0][0])}};
 }
-inline std::array<Point<3>, 3> cofactors(const std::array<Point<3>, 3>& e) {
-  return {vector_product(e[1], e[2]), vector_product(e[2], e[0]), vector_product(e[0], e[1])};
+inline Frame<3> cofactors(const Frame<3>& e) {
+  return {{vector_product(e[1], e[2]), vector_product(e[2], e[0]), vector_product(e[0], e[1])}};
 }
 
 /// The energy of a corner with edge vectors e, whose axes form a frame of the given sign (Cell::corner_sign).
 /// Infinite when the corner is degenerate or inside out.
 template <int Dim>
-inline double corner_energy(const std::array<Point<Dim>, Dim>& e, int sign, const CornerMetric<Dim>& metric) {
+inline double corner_energy(const Frame<Dim>& e, int sign, const CornerMetric<Dim>& metric) {
   const auto c = cofactors(e);
   const double d = sign * c[0].dot(e[0]);
   if (!(d > 0)) return std::numeric_limits<double>::infinity();
@@ -94,7 +103,7 @@ struct Derivatives {
 /// Adds a corner's energy and its derivatives with respect to the position of the corner's own vertex (`end` < 0) or of
 /// the far end of edge `end`, the metric held fixed. \pre the corner is not degenerate.
 template <int Dim>
-void add_corner_derivatives(const std::array<Point<Dim>, Dim>& e, int sign, const CornerMetric<Dim>& metric, int end,
+void add_corner_derivatives(const Frame<Dim>& e, int sign, const CornerMetric<Dim>& metric, int end,
                             Derivatives<Dim>& sum);
 
 }  // namespace pillowmesh

@@ -137,7 +137,7 @@ void Relocator<Dim>::collect_terms(VertexId v) {
 template <int Dim>
 double Relocator<Dim>::energy_at(VertexId v, const Point<Dim>& position, const CornerMetric<Dim>& metric) const {
   double sum = 0.0;
-  std::array<Point<Dim>, Dim> e;
+  Frame<Dim> e;
   for (const Term& t : terms_) {
     if (t.end < 0) {
       for (int d = 0; d < Dim; ++d) e[d] = mesh_.points[t.ends[d]] - position;
@@ -154,7 +154,7 @@ double Relocator<Dim>::energy_at(VertexId v, const Point<Dim>& position, const C
 template <int Dim>
 Derivatives<Dim> Relocator<Dim>::derivatives_at(VertexId v) const {
   Derivatives<Dim> sum;
-  std::array<Point<Dim>, Dim> e;
+  Frame<Dim> e;
   for (const Term& t : terms_) {
     for (int d = 0; d < Dim; ++d) e[d] = mesh_.points[t.ends[d]] - mesh_.points[t.origin];
     add_corner_derivatives(e, t.sign, metric_[t.origin], t.end, sum);
@@ -175,7 +175,7 @@ void Relocator<Dim>::add_metric_gradient(VertexId v, double reach, Derivatives<D
   std::array<CornerMetric<Dim>, 2 * Dim> metric;
   for (int i = 0; i < 2 * Dim; ++i) metric[i] = corner_metric(M[i]);
   std::array<double, 2 * Dim> value{};
-  std::array<Point<Dim>, Dim> e;
+  Frame<Dim> e;
   for (const Term& t : terms_) {
     if (t.end >= 0) continue;
     for (int k = 0; k < Dim; ++k) e[k] = mesh_.points[t.ends[k]] - mesh_.points[v];
