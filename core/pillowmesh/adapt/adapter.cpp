@@ -1,0 +1,286 @@
+// This work is based on: "Conformal Refinement of All-Quadrilateral and All-Hexahedral Meshes According to an
+// Anisotropic Metric" ([Paper]); `step` below is the loop of its section 4.
+#include "pillowmesh/adapt/adapter.h"
+
+#include <chrono>
+#include <optional>
+
+#include "pillowmesh/adapt/recorder.h"
+#include "pillowmesh/adapt/tagging.h"
+#include "pillowmesh/refine/balance.h"
+#include "pillowmesh/refine/dice.h"
+#include "pillowmesh/refine/layer.h"
+#include "pillowmesh/refine/tag_inheritance.h"
+#include "pillowmesh/smooth/relocate.h"
+
+namespace pillowmesh {
+namespace {
+
+/// Adds the time from its birth to its death to a total.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total) : total_(total), start_(std::chrono::steady_clock::now()) {}
+  ~Stopwatch() { total_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& total_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+enum class Stage { tag, layers, smooth_between, dice, smooth_end, done };
+
+}  // namespace
+
+template <int Dim>
+struct Adapter<Dim>::State {
+  Mesh<Dim> mesh;
+  MetricField<Dim> field;
+  MetricField<Dim> target;  ///< the metric that refinement aims at: coarser than `field` before dicing
+  AdaptOptions options;
+  Context context;
+
+  Stage stage = Stage::tag;
+  Status outcome;
+  int iteration = 0;
+  Tagging<Dim> tagging;
+  EdgeTags<Dim> tags;
+  std::vector<CellId> seeds;  ///< cells that may carry tags, in the order in which layers are sought
+  std::size_t next_seed = 0;
+  std::int64_t inserted = 0;  ///< layers in this iteration
+  std::int64_t refused = 0;   ///< layers that no legal insertion was found for, in this iteration
+  LayerMarks layer_marks;
+  Layer layer;
+  PillowWorkspace<Dim> pillow;
+  BufferLayer<Dim> buffer_layer;
+  std::optional<Relocator<Dim>> relocator;
+  int sweeps = 0;
+
+  Recorder<Dim> recorder;
+  std::map<std::string, double> seconds;
+  std::map<std::string, std::int64_t> operations;
+  double &refine_seconds = seconds["refine"], &smooth_seconds = seconds["smooth"];
+  std::int64_t &layers = operations["layers"], &iterations = operations["iterations"],
+               &relocations = operations["relocations"], &refusals = operations["refused_layers"],
+               &sweep_count = operations["sweeps"];
+
+  State(Mesh<Dim> m, MetricField<Dim> f, AdaptOptions o, Context c)
+      : mesh(std::move(m)),
+        field(std::move(f)),
+        target(o.dice > 1 ? field.scaled(o.dice) : field),
+        options(o),
+        context(std::move(c)),
+        tagging(mesh, options.threshold),
+        recorder(options.record) {
+    outcome = field.check(mesh.points);
+    if (!outcome.ok()) stage = Stage::done;
+  }
+
+  bool step() {
+    if (stage == Stage::done) return false;
+    if (context.cancelled && context.cancelled()) {
+      outcome = Status::cancelled("cancelled: the mesh is valid as it is, but not adapted to the end");
+      stage = Stage::done;
+      return false;
+    }
+    switch (stage) {
+      case Stage::tag: find_tags(); break;
+      case Stage::layers: insert_next_layer(); break;
+      case Stage::smooth_between: smooth(Stage::tag); break;
+      case Stage::dice: dice_all(); break;
+      case Stage::smooth_end: smooth(Stage::done); break;
+      case Stage::done: break;
+    }
+    return stage != Stage::done;
+  }
+
+  /// Step 1: tag the edges that are too long; balance.
+  void find_tags() {
+    const Stopwatch watch(refine_seconds);
+    report_progress("finding long edges");
+    seeds = tagging.tag_long_edges(mesh, target, tags);
+    const bool again = iteration == 0 || inserted > 0;
+    if (seeds.empty() || !again || iteration == options.max_iterations) {
+      if (!seeds.empty())
+        outcome = Status::limit_not_met(
+            again ? "edges longer than the threshold remain after " + std::to_string(iteration) + " iterations"
+                  : "edges longer than the threshold remain where no layer can be inserted");
+      stage = options.dice > 1 ? Stage::dice : Stage::smooth_end;
+      begin_smoothing();
+      return;
+    }
+    balance_tags<Dim>(mesh, tags, seeds);
+    tagging.collect_tagged_cells(mesh, tags, seeds);
+    recorder.tags(mesh, tags, iteration);
+    next_seed = 0;
+    inserted = refused = 0;
+    stage = Stage::layers;
+  }
+
+  /// Steps 2 and 3: form a layer, shrink it, connect it. Step 4 is the repetition until no tag is left.
+  void insert_next_layer() {
+    const Stopwatch watch(refine_seconds);
+    while (next_seed < seeds.size() && tags.mask[seeds[next_seed]] == 0) ++next_seed;
+    if (next_seed == seeds.size()) return end_iteration();
+    const CellId c = seeds[next_seed];
+    int e = 0;
+    while (!tags.has(c, e)) ++e;
+    find_layer(mesh, tags, {c, e}, {options.augment, options.thickness}, layer_marks, layer);
+    if (mesh.cell_count() + static_cast<std::int64_t>(Cell<Dim>::facets * layer.cells.size()) > options.max_cells) {
+      outcome = Status::limit_not_met("stopped before the mesh would have had more than " +
+                                      std::to_string(options.max_cells) + " cells");
+      stage = Stage::done;
+      return;
+    }
+    recorder.layer(mesh, layer, pillow.hull, iteration);
+    Status s = insert_buffer_layer<Dim>(mesh, layer.cells, {}, pillow, buffer_layer);
+    if (!s.ok() && pillow.hull.facets.empty()) {
+      // The layer is the whole mesh: split it off the boundary that it lies on.
+      s = insert_buffer_layer<Dim>(mesh, layer.cells, boundary_below(), pillow, buffer_layer);
+    }
+    if (!s.ok()) {  // its edges are looked at again in the next iteration, when the mesh around has changed
+      ++refused;
+      ++refusals;
+      for (const LayerCell& visit : layer.visits) tagging.look_again(visit.cell);
+      recorder.drop_last();
+      return;
+    }
+    inherit_tags<Dim>(mesh, buffer_layer, pillow.hull.facets, tags);
+    for (Index i = 0; i < buffer_layer.cell_count; ++i) {
+      tagging.look_again(buffer_layer.first_cell + i);
+      seeds.push_back(buffer_layer.first_cell + i);
+    }
+    for (const CellId changed : buffer_layer.changed) tagging.look_again(changed);
+    recorder.buffer_layer(mesh, buffer_layer, iteration);
+    ++inserted;
+    if (++layers % 64 == 0) report_progress("inserting layers");
+  }
+
+  std::vector<HalfFacetId> boundary_below() const {
+    std::vector<HalfFacetId> facets;
+    for (const LayerCell& v : layer.visits) {
+      const int f = Cell<Dim>::facet(v.axis, 1 - v.up);
+      if (mesh.on_boundary(v.cell, f)) facets.push_back(mesh.half_facet(v.cell, f));
+    }
+    return facets;
+  }
+
+  /// Step 5: again from step 1, after smoothing if asked for.
+  void end_iteration() {
+    ++iteration;
+    ++iterations;
+    recorder.iteration(mesh, iteration);
+    if (options.smoothing == Smoothing::between && inserted > 0) {
+      stage = Stage::smooth_between;
+      begin_smoothing();
+    } else {
+      stage = Stage::tag;
+    }
+  }
+
+  void begin_smoothing() {
+    relocator.reset();
+    sweeps = 0;
+  }
+
+  void smooth(Stage next) {
+    const Stopwatch watch(smooth_seconds);
+    if (options.smoothing == Smoothing::none || sweeps == options.max_sweeps) return end_smoothing(next);
+    report_progress("smoothing");
+    if (!relocator) relocator.emplace(mesh, next == Stage::done ? field : target);
+    recorder.before_relocation(mesh);
+    const SweepResult result = relocator->sweep();
+    recorder.relocation(mesh, iteration, result.energy - result.decrease);
+    relocations += result.moved;
+    ++sweeps;
+    ++sweep_count;
+    if (result.converged) end_smoothing(next);
+  }
+
+  void end_smoothing(Stage next) {
+    if (next == Stage::tag && sweeps > 0) tagging.look_at_all(mesh);
+    relocator.reset();
+    stage = next;
+    if (next == Stage::done) report_progress("done");
+  }
+
+  void dice_all() {
+    const Stopwatch watch(refine_seconds);
+    report_progress("dicing");
+    std::int64_t pieces = 1;
+    for (int d = 0; d < Dim; ++d) pieces *= options.dice;
+    if (mesh.cell_count() * pieces > options.max_cells) {
+      outcome = Status::limit_not_met("not diced: the mesh would have more than " + std::to_string(options.max_cells) +
+                                      " cells");
+    } else {
+      recorder.before_dice(mesh);
+      const Status s = dice(mesh, options.dice);
+      if (s.ok())
+        recorder.dice(mesh, iteration);
+      else
+        outcome = Status::limit_not_met("not diced: " + s.message);
+      tags.mask.assign(mesh.cells.size(), 0);
+    }
+    stage = Stage::smooth_end;
+    begin_smoothing();
+  }
+
+  void report_progress(std::string_view activity) const {
+    if (!context.progress) return;
+    const double share = stage == Stage::done         ? 1.0
+                         : stage == Stage::smooth_end ? 0.7 + 0.3 * sweeps / std::max(1, options.max_sweeps)
+                                                      : 0.7 * (1.0 - 1.0 / (1.0 + 0.5 * iteration));
+    context.progress(share, activity);
+  }
+};
+
+template <int Dim>
+Adapter<Dim>::Adapter(Mesh<Dim> mesh, MetricField<Dim> field, AdaptOptions options, Context context)
+    : state_(std::make_unique<State>(std::move(mesh), std::move(field), options, std::move(context))) {}
+template <int Dim>
+Adapter<Dim>::~Adapter() = default;
+template <int Dim>
+Adapter<Dim>::Adapter(Adapter&&) noexcept = default;
+template <int Dim>
+Adapter<Dim>& Adapter<Dim>::operator=(Adapter&&) noexcept = default;
+
+template <int Dim>
+bool Adapter<Dim>::step() {
+  return state_->step();
+}
+template <int Dim>
+Status Adapter<Dim>::run() {
+  while (step()) {
+  }
+  return outcome();
+}
+template <int Dim>
+const Status& Adapter<Dim>::outcome() const {
+  return state_->outcome;
+}
+template <int Dim>
+const Mesh<Dim>& Adapter<Dim>::mesh() const {
+  return state_->mesh;
+}
+template <int Dim>
+const MetricField<Dim>& Adapter<Dim>::field() const {
+  return state_->field;
+}
+template <int Dim>
+std::vector<Event<Dim>> Adapter<Dim>::take_events() {
+  return state_->recorder.take();
+}
+template <int Dim>
+const std::map<std::string, double>& Adapter<Dim>::seconds() const {
+  return state_->seconds;
+}
+template <int Dim>
+const std::map<std::string, std::int64_t>& Adapter<Dim>::operations() const {
+  return state_->operations;
+}
+
+template class Adapter<2>;
+template class Adapter<3>;
+
+}  // namespace pillowmesh

@@ -1,0 +1,56 @@
+#include "pillowmesh/adapt/options.h"
+
+#include <cstdlib>
+#include <string>
+
+namespace pillowmesh {
+namespace {
+
+/// Reads a whole number between two bounds, both allowed.
+template <class T>
+Status read_whole(std::string_view name, std::string_view value, long long low, long long high, T& out) {
+  const std::string text(value);
+  char* stop = nullptr;
+  const long long number = std::strtoll(text.c_str(), &stop, 10);
+  if (text.empty() || *stop != '\0' || number < low || number > high)
+    return Status::usage("--" + std::string(name) + " takes a whole number from " + std::to_string(low) + " to " +
+                         std::to_string(high) + ", not '" + text + "'");
+  out = static_cast<T>(number);
+  return {};
+}
+
+Status read_real(std::string_view name, std::string_view value, double above, double most, const char* range,
+                 double& out) {
+  const std::string text(value);
+  char* stop = nullptr;
+  const double number = std::strtod(text.c_str(), &stop);
+  if (text.empty() || *stop != '\0' || !(number > above) || !(number <= most))
+    return Status::usage("--" + std::string(name) + " takes a number " + range + ", not '" + text + "'");
+  out = number;
+  return {};
+}
+
+}  // namespace
+
+Status set_option(AdaptOptions& options, std::string_view name, std::string_view value) {
+  if (name == "threshold") return read_real(name, value, 1.0, 1e6, "above 1", options.threshold);
+  if (name == "dice") return read_whole(name, value, 1, 16, options.dice);
+  if (name == "thickness") return read_whole(name, value, 1, 16, options.thickness);
+  if (name == "augment") return read_whole(name, value, 0, 16, options.augment);
+  if (name == "max-iterations") return read_whole(name, value, 1, 1000, options.max_iterations);
+  if (name == "max-cells") return read_whole(name, value, 1, 500'000'000, options.max_cells);
+  if (name == "max-sweeps") return read_whole(name, value, 0, 1'000'000, options.max_sweeps);
+  if (name == "smooth") {
+    if (value == "none") return options.smoothing = Smoothing::none, Status{};
+    if (value == "end") return options.smoothing = Smoothing::end, Status{};
+    if (value == "between") return options.smoothing = Smoothing::between, Status{};
+    return Status::usage("--smooth is one of none, end, between, not '" + std::string(value) + "'");
+  }
+  if (name == "method") {
+    if (value == "paper") return {};
+    return Status::usage("--method is paper, not '" + std::string(value) + "'");
+  }
+  return Status::usage("there is no option --" + std::string(name));
+}
+
+}  // namespace pillowmesh

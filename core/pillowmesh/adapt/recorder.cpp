@@ -1,0 +1,140 @@
+#include "pillowmesh/adapt/recorder.h"
+
+#include <utility>
+
+namespace pillowmesh {
+namespace {
+
+template <int Dim>
+Corners<Dim> dead_cell() {
+  Corners<Dim> dead;
+  dead.fill(kNone);
+  return dead;
+}
+
+}  // namespace
+
+template <int Dim>
+Event<Dim>& Recorder<Dim>::add(EventKind kind, const Mesh<Dim>& mesh, int iteration) {
+  Event<Dim> event;
+  event.kind = kind;
+  event.iteration = iteration;
+  event.delta.vertices_before = event.delta.vertices_after = mesh.vertex_count();
+  event.delta.cells_before = event.delta.cells_after = mesh.cell_count();
+  events_.push_back(std::move(event));
+  return events_.back();
+}
+
+template <int Dim>
+void Recorder<Dim>::tags(const Mesh<Dim>& mesh, const EdgeTags<Dim>& tags, int iteration) {
+  if (!on_) return;
+  Event<Dim>& event = add(EventKind::tags, mesh, iteration);
+  for (CellId c = 0; c < mesh.cell_count(); ++c)
+    for (int e = 0; e < Cell<Dim>::edges; ++e)
+      if (tags.has(c, e) && represents_edge(mesh, {c, e}))
+        event.edges.push_back({mesh.cells[c][Cell<Dim>::edge_from(e)], mesh.cells[c][Cell<Dim>::edge_to(e)]});
+}
+
+template <int Dim>
+void Recorder<Dim>::layer(const Mesh<Dim>& mesh, const Layer& layer, Hull<Dim>& hull, int iteration) {
+  if (!on_) return;
+  Event<Dim>& event = add(EventKind::layer, mesh, iteration);
+  for (const CellEdge& e : layer.edges)
+    event.edges.push_back({mesh.cells[e.cell][Cell<Dim>::edge_from(e.edge)], mesh.cells[e.cell][Cell<Dim>::edge_to(e.edge)]});
+  event.cells = layer.cells;
+  find_hull<Dim>(mesh, layer.cells, {}, hull);
+  for (const auto& facet : hull.facets) event.hull.push_back(facet.vertices);
+  clear_hull<Dim>(layer.cells, hull);
+}
+
+template <int Dim>
+void Recorder<Dim>::drop_last() {
+  if (on_) events_.pop_back();
+}
+
+template <int Dim>
+void Recorder<Dim>::buffer_layer(const Mesh<Dim>& mesh, const BufferLayer<Dim>& layer, int iteration) {
+  if (!on_) return;
+  const Index vertices_before = layer.first_vertex, cells_before = layer.first_cell;
+  MeshDelta<Dim>& shrink = add(EventKind::shrink, mesh, iteration).delta;
+  shrink.vertices_before = vertices_before;
+  shrink.cells_before = shrink.cells_after = cells_before;
+  for (std::size_t i = 0; i < layer.origins.size(); ++i) {
+    const VertexId v = layer.first_vertex + static_cast<VertexId>(i);
+    shrink.vertices.push_back(v);
+    shrink.old_points.push_back(mesh.points[layer.origins[i]]);
+    shrink.new_points.push_back(mesh.points[v]);
+  }
+  for (std::size_t i = 0; i < layer.changed.size(); ++i) {
+    const CellId c = layer.changed[i];
+    if (mesh.cells[c] == layer.old_corners[i]) continue;
+    shrink.cells.push_back(c);
+    shrink.old_corners.push_back(layer.old_corners[i]);
+    shrink.new_corners.push_back(mesh.cells[c]);
+  }
+  Event<Dim>& connect = add(EventKind::connect, mesh, iteration);
+  connect.delta.cells_before = cells_before;
+  for (CellId k = layer.first_cell; k < mesh.cell_count(); ++k) {
+    connect.cells.push_back(k);
+    connect.delta.cells.push_back(k);
+    connect.delta.old_corners.push_back(dead_cell<Dim>());
+    connect.delta.new_corners.push_back(mesh.cells[k]);
+  }
+}
+
+template <int Dim>
+void Recorder<Dim>::iteration(const Mesh<Dim>& mesh, int iteration) {
+  if (on_) add(EventKind::iteration, mesh, iteration);
+}
+
+template <int Dim>
+void Recorder<Dim>::before_relocation(const Mesh<Dim>& mesh) {
+  if (on_) old_points_ = mesh.points;
+}
+
+template <int Dim>
+void Recorder<Dim>::relocation(const Mesh<Dim>& mesh, int iteration, double energy) {
+  if (!on_) return;
+  Event<Dim>& event = add(EventKind::relocation, mesh, iteration);
+  event.value = energy;
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.points[v] == old_points_[v]) continue;
+    event.delta.vertices.push_back(v);
+    event.delta.old_points.push_back(old_points_[v]);
+    event.delta.new_points.push_back(mesh.points[v]);
+  }
+}
+
+template <int Dim>
+void Recorder<Dim>::before_dice(const Mesh<Dim>& mesh) {
+  if (on_) old_cells_ = mesh.cells;
+  if (on_) old_points_ = mesh.points;
+}
+
+template <int Dim>
+void Recorder<Dim>::dice(const Mesh<Dim>& mesh, int iteration) {
+  if (!on_) return;
+  Event<Dim>& event = add(EventKind::dice, mesh, iteration);
+  event.delta.vertices_before = static_cast<Index>(old_points_.size());
+  event.delta.cells_before = static_cast<Index>(old_cells_.size());
+  for (VertexId v = event.delta.vertices_before; v < mesh.vertex_count(); ++v) {
+    event.delta.vertices.push_back(v);
+    event.delta.old_points.push_back(mesh.points[v]);
+    event.delta.new_points.push_back(mesh.points[v]);
+  }
+  for (CellId c = 0; c < mesh.cell_count(); ++c) {
+    event.delta.cells.push_back(c);
+    event.delta.old_corners.push_back(c < event.delta.cells_before ? old_cells_[c] : dead_cell<Dim>());
+    event.delta.new_corners.push_back(mesh.cells[c]);
+  }
+}
+
+template <int Dim>
+std::vector<Event<Dim>> Recorder<Dim>::take() {
+  return std::exchange(events_, {});
+}
+
+template class Recorder<2>;
+template class Recorder<3>;
+
+}  // namespace pillowmesh

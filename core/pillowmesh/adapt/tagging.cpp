@@ -1,0 +1,89 @@
+#include "pillowmesh/adapt/tagging.h"
+
+#include <algorithm>
+
+#include "pillowmesh/metric/length.h"
+
+namespace pillowmesh {
+
+template <int Dim>
+Tagging<Dim>::Tagging(const Mesh<Dim>& mesh, double threshold)
+    : threshold_(threshold), panel_(default_panel<Dim>(mesh.points)) {
+  look_at_all(mesh);
+}
+
+template <int Dim>
+void Tagging<Dim>::look_again(CellId c) {
+  if (static_cast<std::size_t>(c) >= changed_.size()) changed_.resize(c + 1 + c / 2, 0);
+  if (changed_[c]) return;
+  changed_[c] = 1;
+  list_.push_back(c);
+}
+
+template <int Dim>
+void Tagging<Dim>::look_at_all(const Mesh<Dim>& mesh) {
+  for (CellId c = 0; c < mesh.cell_count(); ++c)
+    if (mesh.alive(c)) look_again(c);
+}
+
+template <int Dim>
+std::vector<CellId> Tagging<Dim>::tag_long_edges(const Mesh<Dim>& mesh, const MetricField<Dim>& field,
+                                                 EdgeTags<Dim>& tags) {
+  using C = Cell<Dim>;
+  tags.mask.resize(mesh.cells.size(), 0);
+  std::sort(list_.begin(), list_.end());
+  constexpr std::size_t batch = 2048;
+  std::vector<std::array<VertexId, 2>> edges;
+  std::vector<CellEdge> places;
+  std::vector<unsigned char> tagged(batch + C::edges);
+  std::vector<CellId> found;
+  const auto flush = [&] {
+    pillowmesh::tag_long_edges<Dim>(field, mesh.points, edges, threshold_, panel_,
+                                    std::span(tagged).first(edges.size()));
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      if (tagged[i])
+        for_each_cell_at_edge(mesh, places[i], [&](CellId c, int e) {
+          if (tags.mask[c] == 0) found.push_back(c);
+          tags.mask[c] |= typename EdgeTags<Dim>::Mask(1u << e);
+        });
+    edges.clear();
+    places.clear();
+  };
+  for (const CellId c : list_) {
+    if (!mesh.alive(c)) continue;
+    for (int e = 0; e < C::edges; ++e) {
+      bool first = true;  // of the cells at the edge that changed
+      for_each_cell_at_edge(mesh, {c, e}, [&](CellId n, int) { first = first && (n >= c || !changed_[n]); });
+      if (!first) continue;
+      places.push_back({c, e});
+      edges.push_back({mesh.cells[c][C::edge_from(e)], mesh.cells[c][C::edge_to(e)]});
+    }
+    if (edges.size() >= batch) flush();
+  }
+  flush();
+  for (const CellId c : list_) changed_[c] = 0;
+  list_.clear();
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+template <int Dim>
+void Tagging<Dim>::collect_tagged_cells(const Mesh<Dim>& mesh, const EdgeTags<Dim>& tags,
+                                        std::vector<CellId>& cells) const {
+  std::vector<std::uint8_t> seen(mesh.cells.size(), 0);
+  for (const CellId c : cells) seen[c] = 1;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    for (int e = 0; e < Cell<Dim>::edges; ++e)
+      if (tags.has(cells[i], e))
+        for_each_cell_at_edge(mesh, {cells[i], e}, [&](CellId n, int) {
+          if (seen[n]) return;
+          seen[n] = 1;
+          cells.push_back(n);
+        });
+  std::sort(cells.begin(), cells.end());
+}
+
+template class Tagging<2>;
+template class Tagging<3>;
+
+}  // namespace pillowmesh

@@ -1,0 +1,36 @@
+// Which edges are too long: looks again only where something changed.
+#pragma once
+
+#include <vector>
+
+#include "pillowmesh/metric/field.h"
+#include "pillowmesh/refine/edge_tags.h"
+
+namespace pillowmesh {
+
+/// Keeps the cells whose edges have changed since they were last measured.
+template <int Dim>
+class Tagging {
+ public:
+  /// Every cell is looked at first. `threshold`: metric length above which an edge is tagged.
+  Tagging(const Mesh<Dim>& mesh, double threshold);
+
+  /// The edges of this cell are to be measured again.
+  void look_again(CellId c);
+  void look_at_all(const Mesh<Dim>& mesh);
+
+  /// Tags the edges that are too long among those that changed. \return the cells that now carry tags, in ascending
+  /// order. Cost: the edges of the cells that changed.
+  std::vector<CellId> tag_long_edges(const Mesh<Dim>& mesh, const MetricField<Dim>& field, EdgeTags<Dim>& tags);
+
+  /// Replaces `cells` by all cells with tags that are connected to them through tagged edges (after balancing), ascending.
+  void collect_tagged_cells(const Mesh<Dim>& mesh, const EdgeTags<Dim>& tags, std::vector<CellId>& cells) const;
+
+ private:
+  double threshold_;
+  double panel_;
+  std::vector<std::uint8_t> changed_;  ///< per cell
+  std::vector<CellId> list_;
+};
+
+}  // namespace pillowmesh

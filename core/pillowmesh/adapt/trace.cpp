@@ -1,0 +1,41 @@
+#include "pillowmesh/adapt/trace.h"
+
+namespace pillowmesh {
+
+std::string_view to_string(EventKind kind) {
+  switch (kind) {
+    case EventKind::tags: return "tags";
+    case EventKind::layer: return "layer";
+    case EventKind::shrink: return "shrink";
+    case EventKind::connect: return "connect";
+    case EventKind::dice: return "dice";
+    case EventKind::relocation: return "relocation";
+    case EventKind::iteration: return "iteration";
+  }
+  return "";
+}
+
+template <int Dim>
+void apply(const MeshDelta<Dim>& delta, std::vector<Point<Dim>>& points, std::vector<Corners<Dim>>& cells) {
+  points.resize(delta.vertices_after, Point<Dim>::Zero());
+  Corners<Dim> dead;
+  dead.fill(kNone);
+  cells.resize(delta.cells_after, dead);
+  for (std::size_t i = 0; i < delta.vertices.size(); ++i) points[delta.vertices[i]] = delta.new_points[i];
+  for (std::size_t i = 0; i < delta.cells.size(); ++i) cells[delta.cells[i]] = delta.new_corners[i];
+}
+
+template <int Dim>
+void revert(const MeshDelta<Dim>& delta, std::vector<Point<Dim>>& points, std::vector<Corners<Dim>>& cells) {
+  for (std::size_t i = 0; i < delta.vertices.size(); ++i) points[delta.vertices[i]] = delta.old_points[i];
+  for (std::size_t i = 0; i < delta.cells.size(); ++i) cells[delta.cells[i]] = delta.old_corners[i];
+  points.resize(delta.vertices_before);
+  cells.resize(delta.cells_before);
+}
+
+template void apply(const MeshDelta<2>&, std::vector<Point<2>>&, std::vector<Corners<2>>&);
+template void apply(const MeshDelta<3>&, std::vector<Point<3>>&, std::vector<Corners<3>>&);
+template void revert(const MeshDelta<2>&, std::vector<Point<2>>&, std::vector<Corners<2>>&);
+template void revert(const MeshDelta<3>&, std::vector<Point<3>>&, std::vector<Corners<3>>&);
+
+}  // namespace pillowmesh
