@@ -1,6 +1,6 @@
 #include "pillowmesh/metric/graph.h"
 
-#include <bit>
+#include <cstring>
 #include <numbers>
 
 #include "pillowmesh/metric/operations.h"
@@ -102,10 +102,12 @@ double apply(Op op, double a, double b, double c) {
 
 NodeId Graph::insert(const Node& node) {
   const auto& o = node.operands;
+  std::uint64_t value_bits = 0;  // by memcpy: std::bit_cast is missing from Emscripten 3.1.6
+  std::memcpy(&value_bits, &node.value, sizeof value_bits);
   const std::array<std::uint64_t, 3> key{
       static_cast<std::uint64_t>(node.op) << 32 | static_cast<std::uint32_t>(o[2]),
       static_cast<std::uint64_t>(static_cast<std::uint32_t>(o[0])) << 32 | static_cast<std::uint32_t>(o[1]),
-      std::bit_cast<std::uint64_t>(node.value)};
+      value_bits};
   const auto [entry, is_new] = known_.try_emplace(key, static_cast<NodeId>(nodes_.size()));
   if (is_new) nodes_.push_back(node);
   return entry->second;
