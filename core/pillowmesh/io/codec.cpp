@@ -37,7 +37,8 @@ bool decode_base64(std::string_view text, std::size_t limit, std::string& bytes)
     }
     group = group << 6 | digit;
     if (++held == 4) {
-      for (int i = 0; i < 3 && bytes.size() < target; ++i) bytes.push_back(static_cast<char>(group >> (16 - 8 * i) & 0xff));
+      for (int i = 0; i < 3 && bytes.size() < target; ++i)
+        bytes.push_back(static_cast<char>(group >> (16 - 8 * i) & 0xff));
       group = 0;
       held = 0;
     }
@@ -103,7 +104,8 @@ struct Huffman {
       if (left < 0) return false;
     }
     std::array<std::uint16_t, kMaxBits + 2> offset{};
-    for (int bits = 1; bits <= kMaxBits; ++bits) offset[bits + 1] = static_cast<std::uint16_t>(offset[bits] + count[bits]);
+    for (int bits = 1; bits <= kMaxBits; ++bits)
+      offset[bits + 1] = static_cast<std::uint16_t>(offset[bits] + count[bits]);
     for (int i = 0; i < n; ++i)
       if (lengths[i] != 0) symbol[offset[lengths[i]]++] = static_cast<std::uint16_t>(i);
     return true;
@@ -144,7 +146,9 @@ bool read_codes(Bits& in, Huffman& literals, Huffman& distances) {
     }
     if (symbol == 16 && i == 0) return false;
     const std::uint8_t value = symbol == 16 ? all[i - 1] : 0;
-    const int repeat = static_cast<int>(symbol == 16 ? 3 + in.take(2) : symbol == 17 ? 3 + in.take(3) : 11 + in.take(7));
+    const int repeat = static_cast<int>(symbol == 16   ? 3 + in.take(2)
+                                        : symbol == 17 ? 3 + in.take(3)
+                                                       : 11 + in.take(7));
     if (in.failed || i + repeat > n_literals + n_distances) return false;
     for (int k = 0; k < repeat; ++k) all[i++] = value;
   }
@@ -156,9 +160,11 @@ bool expand(Bits& in, const Huffman& literals, const Huffman& distances, std::si
             std::string& out) {
   constexpr std::uint16_t length_base[29] = {3,  4,  5,  6,  7,  8,  9,  10, 11,  13,  15,  17,  19,  23, 27,
                                              31, 35, 43, 51, 59, 67, 83, 99, 115, 131, 163, 195, 227, 258};
-  constexpr std::uint8_t length_extra[29] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 0};
-  constexpr std::uint16_t distance_base[30] = {1,   2,   3,   4,   5,   7,    9,    13,   17,   25,   33,   49,   65,    97,    129,
-                                               193, 257, 385, 513, 769, 1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577};
+  constexpr std::uint8_t length_extra[29] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2,
+                                             2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 0};
+  constexpr std::uint16_t distance_base[30] = {1,    2,    3,    4,    5,    7,    9,    13,    17,    25,
+                                               33,   49,   65,   97,   129,  193,  257,  385,   513,   769,
+                                               1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577};
   for (;;) {
     const int symbol = literals.decode(in);
     if (symbol < 0 || symbol > 285) return false;

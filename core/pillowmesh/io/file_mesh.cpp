@@ -62,9 +62,9 @@ Status check_kinds(const FileMesh& file, std::string_view name) {
                              " and no quads or hexahedra; pillowmesh takes all-quad or all-hex meshes only");
   }
   if (has_hexes || has_quads) return {};
-  return Status::bad_input(place(name, 0) +
-                           (file.points.empty() ? "the mesh is empty: it has no vertices and no cells"
-                                                : "the mesh has vertices but no quads and no hexahedra"));
+  return Status::bad_input(place(name, 0) + (file.points.empty()
+                                                 ? "the mesh is empty: it has no vertices and no cells"
+                                                 : "the mesh has vertices but no quads and no hexahedra"));
 }
 
 /// A 2D mesh given in 3D must lie in a plane z = constant.

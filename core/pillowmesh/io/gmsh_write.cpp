@@ -209,8 +209,7 @@ class GmshWriter {
       if (by_region_[r] == 0) continue;
       begin_block(Dim, r, Dim == 2 ? 3 : 5, by_region_[r]);
       for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
-        if (region_of(c) == r)
-          element_41(file_order(mesh_.cells[c]));
+        if (region_of(c) == r) element_41(file_order(mesh_.cells[c]));
     }
     if (binary_) new_line();
     out_ << "$EndElements\n";
@@ -239,8 +238,7 @@ class GmshWriter {
     if (binary_) new_line();
     out_ << "$EndNodes\n$Elements\n" << corners_.size() + facet_count_ + mesh_.cells.size() << '\n';
     begin_block_22(kPointType, corners_.size());
-    for (std::size_t i = 0; i < corners_.size(); ++i)
-      element_22(kPointType, 1, i, std::array<Index, 1>{corners_[i]});
+    for (std::size_t i = 0; i < corners_.size(); ++i) element_22(kPointType, 1, i, std::array<Index, 1>{corners_[i]});
     begin_block_22(Dim == 2 ? 1 : 3, facet_count_);
     for (const auto& f : mesh_.facets) {
       if (!listed(f)) continue;
@@ -262,7 +260,7 @@ class GmshWriter {
   std::vector<Index> facet_tags_, region_tags_;
   std::vector<std::size_t> by_group_, by_region_;  // numbers of elements
   std::size_t facet_count_ = 0;
-  std::size_t number_ = 0;                         // of the element written last
+  std::size_t number_ = 0;  // of the element written last
 };
 
 }  // namespace

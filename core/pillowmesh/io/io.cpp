@@ -50,12 +50,23 @@ Expected<AnyMesh> read_mesh(std::string_view name, std::span<const char> bytes) 
   Source source(name, bytes, format == Format::medit ? '#' : '\0');
   FileMesh mesh;
   switch (format) {
-    case Format::medit: mesh = read_medit_ascii(source); break;
-    case Format::medit_binary: mesh = read_medit_binary(source); break;
-    case Format::gmsh: mesh = read_gmsh(source); break;
-    case Format::vtk: mesh = read_vtk(source); break;
-    case Format::vtu: mesh = read_vtu(source); break;
-    case Format::unknown: break;
+    case Format::medit:
+      mesh = read_medit_ascii(source);
+      break;
+    case Format::medit_binary:
+      mesh = read_medit_binary(source);
+      break;
+    case Format::gmsh:
+      mesh = read_gmsh(source);
+      break;
+    case Format::vtk:
+      mesh = read_vtk(source);
+      break;
+    case Format::vtu:
+      mesh = read_vtu(source);
+      break;
+    case Format::unknown:
+      break;
   }
   if (source.failed()) return source.status();
   return finish(std::move(mesh), name);
@@ -76,12 +87,23 @@ Status write_mesh_to(Sink& sink, const Mesh<Dim>& mesh, std::string_view name, c
   if (Status s = check_writable(name, options); !s.ok()) return s;
   const MeshInput<Dim> input = to_input(mesh);
   switch (format_of(name)) {
-    case Format::medit: write_medit(input, sink, false); break;
-    case Format::medit_binary: write_medit(input, sink, true); break;
-    case Format::gmsh: write_gmsh(input, sink, options.gmsh_version, options.binary); break;
-    case Format::vtk: write_vtk(input, sink, options.binary); break;
-    case Format::vtu: write_vtu(input, sink, options.binary); break;
-    case Format::unknown: break;
+    case Format::medit:
+      write_medit(input, sink, false);
+      break;
+    case Format::medit_binary:
+      write_medit(input, sink, true);
+      break;
+    case Format::gmsh:
+      write_gmsh(input, sink, options.gmsh_version, options.binary);
+      break;
+    case Format::vtk:
+      write_vtk(input, sink, options.binary);
+      break;
+    case Format::vtu:
+      write_vtu(input, sink, options.binary);
+      break;
+    case Format::unknown:
+      break;
   }
   return {};
 }

@@ -36,7 +36,7 @@ template <int Dim>
 Status write_mesh_to(Sink& sink, const Mesh<Dim>& mesh, std::string_view name, const WriteOptions& options = {});
 
 /// The bytes of a mesh file; the ending of `name` chooses the format. The same mesh gives the same bytes everywhere.
-/// Cells, then boundary facets with their groups; names of groups survive in Gmsh files only.
+/// Cells, then boundary facets with their groups; names of groups survive in .msh and .vtu files.
 Expected<std::string> write_mesh(const AnyMesh& mesh, std::string_view name, const WriteOptions& options = {});
 template <int Dim>
 Expected<std::string> write_mesh(const Mesh<Dim>& mesh, std::string_view name, const WriteOptions& options = {});

@@ -79,14 +79,16 @@ class SectionReader {
   void read_vertices() {
     if (!mesh_.points.empty()) return in_.fail("the vertices are listed twice");
     const std::int64_t unit =
-        in_.binary() ? dim_ * static_cast<std::int64_t>(sizeof(Real)) + static_cast<std::int64_t>(sizeof(Id)) : dim_ + 1;
+        in_.binary() ? dim_ * static_cast<std::int64_t>(sizeof(Real)) + static_cast<std::int64_t>(sizeof(Id))
+                     : dim_ + 1;
     const std::int64_t n = in_.template count<Id>("vertices", unit);
     mesh_.points.reserve(static_cast<std::size_t>(n));
     for (std::int64_t i = 0; i < n && !in_.failed(); ++i) {
       Point<3> p(0.0, 0.0, 0.0);
       for (int d = 0; d < dim_; ++d) {
         p[d] = in_.template real<Real>("a coordinate");
-        if (!std::isfinite(p[d])) in_.fail("a coordinate of vertex " + std::to_string(i + 1) + " is not a finite number");
+        if (!std::isfinite(p[d]))
+          in_.fail("a coordinate of vertex " + std::to_string(i + 1) + " is not a finite number");
       }
       in_.template integer<Id>("a vertex reference");
       mesh_.points.push_back(p);
@@ -158,7 +160,8 @@ FileMesh read_medit_ascii(Source& in) {
     return mesh;
   }
   const std::int64_t version = in.integer("the version");
-  if (!in.failed() && (version < 1 || version > 4)) in.fail("Medit version " + std::to_string(version) + " is not supported");
+  if (!in.failed() && (version < 1 || version > 4))
+    in.fail("Medit version " + std::to_string(version) + " is not supported");
   int dim = 0;
   while (!in.failed()) {
     const std::string_view keyword = in.word();
@@ -210,11 +213,20 @@ FileMesh read_medit_binary(Source& in) {
   const auto version = in.value<std::int32_t>("the version");
   if (in.failed()) return mesh;
   switch (version) {
-    case 1: read_binary_sections<std::int32_t, float, std::int32_t>(in, mesh); break;
-    case 2: read_binary_sections<std::int32_t, double, std::int32_t>(in, mesh); break;
-    case 3: read_binary_sections<std::int32_t, double, std::int64_t>(in, mesh); break;
-    case 4: read_binary_sections<std::int64_t, double, std::int64_t>(in, mesh); break;
-    default: in.fail_whole("Medit version " + std::to_string(version) + " is not supported");
+    case 1:
+      read_binary_sections<std::int32_t, float, std::int32_t>(in, mesh);
+      break;
+    case 2:
+      read_binary_sections<std::int32_t, double, std::int32_t>(in, mesh);
+      break;
+    case 3:
+      read_binary_sections<std::int32_t, double, std::int64_t>(in, mesh);
+      break;
+    case 4:
+      read_binary_sections<std::int64_t, double, std::int64_t>(in, mesh);
+      break;
+    default:
+      in.fail_whole("Medit version " + std::to_string(version) + " is not supported");
   }
   return mesh;
 }

@@ -105,7 +105,8 @@ void write_medit(const MeshInput<Dim>& mesh, Sink& sink, bool binary) {
   }
   if (!mesh.facets.empty()) {
     constexpr int n = Cell<Dim>::facet_corners;
-    out.begin(Dim == 2 ? kEdges : kQuadrilaterals, Dim == 2 ? "Edges" : "Quadrilaterals", mesh.facets.size(), (n + 1) * 4);
+    out.begin(Dim == 2 ? kEdges : kQuadrilaterals, Dim == 2 ? "Edges" : "Quadrilaterals", mesh.facets.size(),
+              (n + 1) * 4);
     for (const auto& facet : mesh.facets) {
       for (Index v : file_order(facet.vertices)) out.integer(v + 1);
       out.last(facet_tags[facet.group]);

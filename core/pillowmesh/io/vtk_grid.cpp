@@ -13,9 +13,9 @@ struct VtkType {
   std::string_view plural;
 };
 constexpr VtkType kTypes[] = {
-    {0, 0, "empty cells"}, {1, 1, "points"},     {2, 0, "points"},    {3, 2, "edges"},      {4, 0, "edges"},
-    {5, 3, "triangles"},   {6, 0, "triangle strips"}, {7, 0, "polygons"}, {8, 4, "quads"},   {9, 4, "quads"},
-    {10, 4, "tetrahedra"}, {11, 8, "hexahedra"}, {12, 8, "hexahedra"}, {13, 6, "prisms"},   {14, 5, "pyramids"},
+    {0, 0, "empty cells"}, {1, 1, "points"},          {2, 0, "points"},     {3, 2, "edges"},   {4, 0, "edges"},
+    {5, 3, "triangles"},   {6, 0, "triangle strips"}, {7, 0, "polygons"},   {8, 4, "quads"},   {9, 4, "quads"},
+    {10, 4, "tetrahedra"}, {11, 8, "hexahedra"},      {12, 8, "hexahedra"}, {13, 6, "prisms"}, {14, 5, "pyramids"},
 };
 
 template <int N>
@@ -70,7 +70,8 @@ FileMesh to_file_mesh(VtkGrid grid, Source& source) {
     switch (type->code) {
       case 0:
       case 1:
-      case 2: break;
+      case 2:
+        break;
       case 3:
       case 4:
         for (Index k = 0; k + 1 < n; ++k) keep(mesh.lines, v + k, group, line);
@@ -87,14 +88,19 @@ FileMesh to_file_mesh(VtkGrid grid, Source& source) {
         keep(mesh.quads, q, group, line);
         break;
       }
-      case 9: keep(mesh.quads, v, group, line); break;
+      case 9:
+        keep(mesh.quads, v, group, line);
+        break;
       case 11: {
         const Index h[8] = {v[0], v[1], v[3], v[2], v[4], v[5], v[7], v[6]};
         keep(mesh.hexes, h, group, line);
         break;
       }
-      case 12: keep(mesh.hexes, v, group, line); break;
-      default: add_foreign(mesh, type->plural, line);
+      case 12:
+        keep(mesh.hexes, v, group, line);
+        break;
+      default:
+        add_foreign(mesh, type->plural, line);
     }
   }
   return mesh;

@@ -15,10 +15,10 @@ Type type_of(std::string_view name) {
     Type type;
   };
   constexpr Entry entries[] = {
-      {"double", Type::f64},       {"float", Type::f32},           {"int", Type::i32},
-      {"vtkIdType", Type::i32},    {"long", Type::i64},            {"vtktypeint64", Type::i64},
-      {"unsigned_long", Type::u64}, {"vtktypeuint64", Type::u64},  {"unsigned_int", Type::u32},
-      {"vtktypeint32", Type::i32}, {"vtktypeuint32", Type::u32},   {"short", Type::i16},
+      {"double", Type::f64},         {"float", Type::f32},         {"int", Type::i32},
+      {"vtkIdType", Type::i32},      {"long", Type::i64},          {"vtktypeint64", Type::i64},
+      {"unsigned_long", Type::u64},  {"vtktypeuint64", Type::u64}, {"unsigned_int", Type::u32},
+      {"vtktypeint32", Type::i32},   {"vtktypeuint32", Type::u32}, {"short", Type::i16},
       {"unsigned_short", Type::u16}, {"char", Type::i8},           {"signed_char", Type::i8},
       {"unsigned_char", Type::u8},
   };
@@ -32,13 +32,17 @@ Type type_of(std::string_view name) {
 int size_of(Type type) {
   switch (type) {
     case Type::i8:
-    case Type::u8: return 1;
+    case Type::u8:
+      return 1;
     case Type::i16:
-    case Type::u16: return 2;
+    case Type::u16:
+      return 2;
     case Type::i32:
     case Type::u32:
-    case Type::f32: return 4;
-    default: return 8;
+    case Type::f32:
+      return 4;
+    default:
+      return 8;
   }
 }
 
@@ -74,7 +78,10 @@ class VtkReader {
     while (!in_.failed() && read_section()) {
     }
     if (!in_.failed() && !(points_ && cells_ && types_))
-      in_.fail_whole(std::string("the file has no ") + (!points_ ? "POINTS" : !cells_ ? "CELLS" : "CELL_TYPES") +
+      in_.fail_whole(std::string("the file has no ") +
+                     (!points_  ? "POINTS"
+                      : !cells_ ? "CELLS"
+                                : "CELL_TYPES") +
                      "; it is truncated or empty");
     return to_file_mesh(std::move(grid_), in_);
   }
@@ -93,7 +100,9 @@ class VtkReader {
     return n;
   }
   /// A count in a header line, whose values follow on the next line.
-  std::int64_t count(const char* things, std::int64_t unit) { return in_.checked_count(number("a count"), things, unit); }
+  std::int64_t count(const char* things, std::int64_t unit) {
+    return in_.checked_count(number("a count"), things, unit);
+  }
   void end_line() {
     if (binary_ && !in_.failed()) in_.rest_of_line();
   }
@@ -101,16 +110,26 @@ class VtkReader {
   double value(Type type) {
     const char* what = "a value";
     switch (type) {
-      case Type::i8: return in_.real<std::int8_t>(what);
-      case Type::u8: return in_.real<std::uint8_t>(what);
-      case Type::i16: return in_.real<std::int16_t>(what);
-      case Type::u16: return in_.real<std::uint16_t>(what);
-      case Type::i32: return in_.real<std::int32_t>(what);
-      case Type::u32: return in_.real<std::uint32_t>(what);
-      case Type::i64: return in_.real<std::int64_t>(what);
-      case Type::u64: return in_.real<std::uint64_t>(what);
-      case Type::f32: return in_.real<float>(what);
-      default: return in_.real<double>(what);
+      case Type::i8:
+        return in_.real<std::int8_t>(what);
+      case Type::u8:
+        return in_.real<std::uint8_t>(what);
+      case Type::i16:
+        return in_.real<std::int16_t>(what);
+      case Type::u16:
+        return in_.real<std::uint16_t>(what);
+      case Type::i32:
+        return in_.real<std::int32_t>(what);
+      case Type::u32:
+        return in_.real<std::uint32_t>(what);
+      case Type::i64:
+        return in_.real<std::int64_t>(what);
+      case Type::u64:
+        return in_.real<std::uint64_t>(what);
+      case Type::f32:
+        return in_.real<float>(what);
+      default:
+        return in_.real<double>(what);
     }
   }
   Type type(const std::string& name) {
@@ -289,13 +308,14 @@ class VtkReader {
       end_line();
       return read_array("", type_name, n, tuples_);
     }
-    const std::int64_t components = is("VECTORS") || is("NORMALS")             ? 3
-                                    : is("TENSORS")                            ? 9
-                                    : is("TENSORS6")                           ? 6
+    const std::int64_t components = is("VECTORS") || is("NORMALS")           ? 3
+                                    : is("TENSORS")                          ? 9
+                                    : is("TENSORS6")                         ? 6
                                     : is("GLOBAL_IDS") || is("PEDIGREE_IDS") ? 1
                                                                              : 0;
     if (components == 0) {
-      in_.fail("expected a keyword such as CELLS, found '" + keyword.substr(0, 24) + "'; a count before it may be wrong");
+      in_.fail("expected a keyword such as CELLS, found '" + keyword.substr(0, 24) +
+               "'; a count before it may be wrong");
       return false;
     }
     const std::string type_name = word();

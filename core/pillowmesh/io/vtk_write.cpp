@@ -39,7 +39,8 @@ void write_vtk(const MeshInput<Dim>& mesh, Sink& sink, bool binary) {
 
   constexpr std::size_t corners = Cell<Dim>::corners, facet_corners = Cell<Dim>::facet_corners;
   const std::size_t total = mesh.cells.size() + mesh.facets.size();
-  sink << "CELLS " << total << ' ' << mesh.cells.size() * (corners + 1) + mesh.facets.size() * (facet_corners + 1) << '\n';
+  sink << "CELLS " << total << ' ' << mesh.cells.size() * (corners + 1) + mesh.facets.size() * (facet_corners + 1)
+       << '\n';
   const auto element = [&](const auto& vertices) {
     const auto n = static_cast<Index>(vertices.size());
     value(n, ' ');

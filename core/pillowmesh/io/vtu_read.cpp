@@ -34,7 +34,9 @@ class VtuReader {
       expect(grid.types.size(), cell_count_, "types", "NumberOfCells");
       if (grid.groups.size() != grid.ends.size()) grid.groups.clear();
     }
-    return to_file_mesh(std::move(grid), in_);
+    FileMesh mesh = to_file_mesh(std::move(grid), in_);
+    mesh.names = std::move(names_);
+    return mesh;
   }
 
  private:
@@ -56,8 +58,8 @@ class VtuReader {
       return false;
     }
     if (attribute(tag, "type") != "UnstructuredGrid") {
-      fail(tag.begin, "the dataset is '" + std::string(attribute(tag, "type").substr(0, 24)) +
-                          "'; only UnstructuredGrid is read");
+      fail(tag.begin,
+           "the dataset is '" + std::string(attribute(tag, "type").substr(0, 24)) + "'; only UnstructuredGrid is read");
       return false;
     }
     const bool big = attribute(tag, "byte_order") == "BigEndian";
@@ -96,6 +98,7 @@ class VtuReader {
           array.content = text_.substr(tag.end, end - tag.end);
         }
         const std::string_view name = attribute(tag, "Name");
+        if (section == "FieldData") read_name(array);
         if (section == "Points") points_ = array;
         if (section == "Cells" && name == "connectivity") connectivity_ = array;
         if (section == "Cells" && name == "offsets") offsets_ = array;
@@ -119,6 +122,16 @@ class VtuReader {
     return !in_.failed();
   }
 
+  /// Field data may name groups: an array of that name with the group's number and dimension, as meshio has it.
+  void read_name(const DataArray& array) {
+    if (attribute(array.tag, "format") != "ascii" || attribute(array.tag, "type").find("Int") == std::string_view::npos)
+      return;
+    std::vector<Index> values;
+    read_ascii(array, values);
+    const std::string name = unescaped(attribute(array.tag, "Name"));
+    if (values.size() == 2 && !name.empty()) names_.push_back({values[1], values[0], name});
+  }
+
   void read_points(VtkGrid& grid) {
     std::vector<double> values;
     if (point_count_ == 0 && points_.tag.name.empty()) return;
@@ -128,7 +141,8 @@ class VtuReader {
     expect(values.size() / 3, point_count_, "Points", "NumberOfPoints");
     if (in_.failed()) return;
     grid.points.reserve(values.size() / 3);
-    for (std::size_t i = 0; i + 2 < values.size(); i += 3) grid.points.emplace_back(values[i], values[i + 1], values[i + 2]);
+    for (std::size_t i = 0; i + 2 < values.size(); i += 3)
+      grid.points.emplace_back(values[i], values[i + 1], values[i + 2]);
   }
 
   template <class T>
@@ -265,6 +279,7 @@ class VtuReader {
   Source& in_;
   std::string_view text_;
   DataArray points_, connectivity_, offsets_, types_, groups_;
+  std::vector<FileMesh::Name> names_;
   std::string_view appended_;
   bool raw_ = false, swapped_ = false, compressed_ = false;
   int header_size_ = 4;

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <bit>
+#include <string>
 
 #include "pillowmesh/io/codec.h"
 #include "pillowmesh/io/vtk.h"
@@ -48,6 +50,49 @@ class ArrayWriter {
   Base64Encoder encoder_;
 };
 
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+/// Names of groups as field data, in meshio's way: an array of that name with the group's number and dimension.
+template <int Dim>
+void write_names(const MeshInput<Dim>& mesh, Sink& sink) {
+  std::vector<std::string> names;
+  std::string arrays;
+  const auto add = [&](int dim, const std::vector<Group>& groups) {
+    const std::vector<Index> tags = distinct_tags(groups);
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      if (groups[i].name.empty() || std::find(names.begin(), names.end(), groups[i].name) != names.end()) continue;
+      names.push_back(groups[i].name);
+      arrays += "      <DataArray type=\"Int32\" Name=\"" + escaped(groups[i].name) +
+                "\" NumberOfComponents=\"2\" NumberOfTuples=\"1\" format=\"ascii\">" + std::to_string(tags[i]) + " " +
+                std::to_string(dim) + "</DataArray>\n";
+    }
+  };
+  add(Dim - 1, mesh.facet_groups);
+  add(Dim, mesh.region_groups);
+  if (!names.empty()) sink << "    <FieldData>\n" << arrays << "    </FieldData>\n";
+}
+
 }  // namespace
 
 template <int Dim>
@@ -57,8 +102,10 @@ void write_vtu(const MeshInput<Dim>& mesh, Sink& sink, bool binary) {
   ArrayWriter out(sink, binary);
   sink << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
        << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
-       << "\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"" << mesh.points.size()
-       << "\" NumberOfCells=\"" << total << "\">\n      <Points>\n";
+       << "\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n";
+  write_names(mesh, sink);
+  sink << "    <Piece NumberOfPoints=\"" << mesh.points.size() << "\" NumberOfCells=\"" << total
+       << "\">\n      <Points>\n";
   out.begin<double>("Float64", "Points", 3, 3 * mesh.points.size());
   for (const Point<Dim>& p : mesh.points) {
     out.value(p[0], ' ');

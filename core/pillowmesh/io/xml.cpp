@@ -63,4 +63,25 @@ std::string_view attribute(const XmlTag& tag, std::string_view name) {
   return {};
 }
 
+std::string unescaped(std::string_view text) {
+  struct Entity {
+    std::string_view name;
+    char character;
+  };
+  constexpr Entity entities[] = {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
+  std::string out;
+  while (!text.empty()) {
+    std::size_t taken = 1;
+    char c = text[0];
+    for (const Entity& e : entities)
+      if (text.starts_with(e.name)) {
+        taken = e.name.size();
+        c = e.character;
+      }
+    out += c;
+    text.remove_prefix(taken);
+  }
+  return out;
+}
+
 }  // namespace pillowmesh

@@ -1,6 +1,7 @@
 // As much of XML as .vtu files need: tags with attributes, one after the other.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace pillowmesh {
@@ -16,7 +17,10 @@ struct XmlTag {
 /// The first tag at or after `from`; comments and declarations are skipped.
 XmlTag next_tag(std::string_view text, std::size_t from);
 
-/// Value of an attribute, empty when it is not there. Entities such as &quot; are left as they are.
+/// Value of an attribute as written, empty when it is not there.
 std::string_view attribute(const XmlTag& tag, std::string_view name);
+
+/// Text with &amp; &lt; &gt; &quot; &apos; replaced by what they mean.
+std::string unescaped(std::string_view text);
 
 }  // namespace pillowmesh
