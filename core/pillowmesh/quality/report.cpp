@@ -1,0 +1,113 @@
+#include "pillowmesh/quality/report.h"
+
+#include <cstdio>
+#include <cstring>
+#include <vector>
+
+#include "pillowmesh/mesh/topology.h"
+#include "pillowmesh/mesh/validate.h"
+#include "pillowmesh/metric/length.h"
+#include "pillowmesh/metric/volume.h"
+#include "pillowmesh/quality/jacobian.h"
+#include "pillowmesh/quality/shape.h"
+#include "pillowmesh/quality/valence.h"
+
+#if !defined(__wasm__) && __has_include(<sys/resource.h>)
+#include <sys/resource.h>
+#define PILLOWMESH_HAS_RUSAGE 1
+#endif
+
+namespace pillowmesh {
+namespace {
+
+// Nothing that walks the mesh is safe on such defects.
+template <int Dim>
+bool walkable(const std::vector<Defect>& defects) {
+  for (const Defect& d : defects) {
+    if (d.kind == Defect::Kind::index_out_of_range || d.kind == Defect::Kind::broken_adjacency) return false;
+  }
+  return true;
+}
+
+template <int Dim>
+void measure_lengths(const Mesh<Dim>& mesh, const MetricField<Dim>& field, const LengthOptions& options,
+                     Report& report) {
+  const std::vector<std::array<VertexId, 2>> edges = unique_edges(mesh);
+  std::vector<double> lengths(edges.size());
+  edge_lengths<Dim>(field, mesh.points, edges, lengths, options);
+  report.edges = static_cast<Index>(edges.size());
+  report.edge_length = statistics(lengths);
+}
+
+template <int Dim>
+void measure_cells(const Mesh<Dim>& mesh, const MetricField<Dim>& field, const LengthOptions& options, Report& report) {
+  std::vector<CellId> cells;
+  for (CellId c = 0; c < mesh.cell_count(); ++c) {
+    if (mesh.alive(c)) cells.push_back(c);
+  }
+  report.cells = static_cast<Index>(cells.size());
+  std::vector<double> values(cells.size());
+  {
+    std::vector<double> integral(cells.size());
+    cell_shapes<Dim>(mesh, field, cells, values, integral, options);
+    report.shape = statistics(values);
+    report.shape_integral = statistics(integral);
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) values[i] = scaled_jacobian(mesh, cells[i]);
+  const Statistics jacobian = statistics(values);
+  report.scaled_jacobian_min = jacobian.min;
+  report.scaled_jacobian_mean = jacobian.mean;
+}
+
+}  // namespace
+
+template <int Dim>
+Report measure(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
+  Report report;
+  report.dim = Dim;
+  for (const CellId c : mesh.vertex_cell) report.vertices += c != kNone ? 1 : 0;
+  const std::vector<Defect> defects = find_defects(mesh);
+  report.valid = defects.empty();
+  if (!report.valid) report.defect = defects[0].message;
+  if (!walkable<Dim>(defects)) return report;
+
+  LengthOptions options;
+  options.panel = default_panel<Dim>(mesh.points);
+  measure_lengths(mesh, field, options, report);
+  measure_cells(mesh, field, options, report);
+  for (const unsigned char mark : irregular_vertices(mesh)) report.irregular_vertices += mark;
+  report.complexity = complexity(mesh, field, {.tolerance = 1e-5, .panel = 4.0 * options.panel});
+  return report;
+}
+
+// VmHWM rather than getrusage where there is /proc: Linux counts in the latter what the process held before it became
+// this program.
+std::int64_t peak_memory_bytes() {
+#ifdef __linux__
+  if (std::FILE* file = std::fopen("/proc/self/status", "r")) {
+    char line[256];
+    long long kilobytes = -1;
+    while (kilobytes < 0 && std::fgets(line, sizeof line, file) != nullptr) {
+      if (std::strncmp(line, "VmHWM:", 6) == 0) std::sscanf(line + 6, "%lld", &kilobytes);
+    }
+    std::fclose(file);
+    if (kilobytes > 0) return kilobytes * 1024;
+  }
+#endif
+#ifdef PILLOWMESH_HAS_RUSAGE
+  rusage usage{};
+  if (getrusage(RUSAGE_SELF, &usage) == 0) {
+#ifdef __APPLE__
+    return usage.ru_maxrss;
+#else
+    return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+#endif
+  }
+#endif
+  return 0;
+}
+
+template Report measure<2>(const Mesh<2>&, const MetricField<2>&);
+template Report measure<3>(const Mesh<3>&, const MetricField<3>&);
+
+}  // namespace pillowmesh

@@ -1,0 +1,177 @@
+#include "pillowmesh/quality/shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "pillowmesh/metric/portable_math.h"
+#include "pillowmesh/metric/volume.h"
+
+namespace pillowmesh {
+namespace {
+
+// The corner simplices of a cell as index arithmetic. The edges of simplex k run from corner k to corner k ^ (1 << d),
+// and between those ends, in the order of SimplexLengths.
+template <int Dim>
+struct CornerSimplex {
+  static constexpr int edges = Dim * (Dim + 1) / 2;
+
+  static constexpr std::array<int, 2> edge(int k, int i) {
+    if (i < Dim) return {k, k ^ (1 << i)};
+    // i = Dim, Dim + 1, Dim + 2 join the ends along the axes (0, 1), (0, 2), (1, 2).
+    const int a = i == Dim + 2 ? 1 : 0;
+    const int b = i == Dim ? 1 : 2;
+    return {k ^ (1 << a), k ^ (1 << b)};
+  }
+};
+
+// Metric lengths of all edges of all corner simplices of a chunk of cells. Neighbouring cells and corners share most
+// of them: each is integrated once.
+template <int Dim>
+class SimplexEdges {
+ public:
+  static constexpr int kPerCell = Cell<Dim>::corners * CornerSimplex<Dim>::edges;
+
+  void measure(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
+               const LengthOptions& options) {
+    keys_.clear();
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      for (int j = 0; j < kPerCell; ++j) keys_.push_back({key(mesh.cells[cells[i]], j), i * kPerCell + j});
+    }
+    std::sort(keys_.begin(), keys_.end());
+    pairs_.clear();
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      if (i > 0 && keys_[i][0] == keys_[i - 1][0]) continue;
+      pairs_.push_back({static_cast<VertexId>(keys_[i][0] >> 32), static_cast<VertexId>(keys_[i][0] & 0xffffffffu)});
+    }
+    unique_.resize(pairs_.size());
+    edge_lengths<Dim>(field, mesh.points, pairs_, unique_, options);
+    lengths_.resize(keys_.size());
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      if (i > 0 && keys_[i][0] != keys_[i - 1][0]) ++at;
+      lengths_[keys_[i][1]] = unique_[at];
+    }
+  }
+
+  /// Of simplex k of the i-th cell.
+  [[nodiscard]] SimplexLengths<Dim> simplex(std::size_t i, int k) const {
+    SimplexLengths<Dim> l;
+    std::copy_n(lengths_.begin() + static_cast<std::ptrdiff_t>(i * kPerCell + k * CornerSimplex<Dim>::edges), l.size(),
+                l.begin());
+    return l;
+  }
+
+ private:
+  static std::uint64_t key(const Corners<Dim>& corners, int j) {
+    const std::array<int, 2> e = CornerSimplex<Dim>::edge(j / CornerSimplex<Dim>::edges, j % CornerSimplex<Dim>::edges);
+    const auto [low, high] = std::minmax(corners[e[0]], corners[e[1]]);
+    return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high);
+  }
+
+  std::vector<std::array<std::uint64_t, 2>> keys_;  // vertex pair, place in lengths_
+  std::vector<std::array<VertexId, 2>> pairs_;
+  std::vector<double> unique_, lengths_;
+};
+
+// Volume of the flat simplex from the Gram matrix of the edges out of the corner; 0 if the matrix is not positive
+// definite, that is, if there is no such simplex.
+double flat_volume(const SimplexLengths<2>& l) {
+  const double a = l[0] * l[0];
+  const double b = l[1] * l[1];
+  const double g = 0.5 * (a + b - l[2] * l[2]);
+  const double det = a * b - g * g;
+  return det > 0.0 ? 0.5 * std::sqrt(det) : 0.0;
+}
+
+double flat_volume(const SimplexLengths<3>& l) {
+  const double a = l[0] * l[0];
+  const double b = l[1] * l[1];
+  const double c = l[2] * l[2];
+  const double ab = 0.5 * (a + b - l[3] * l[3]);
+  const double ac = 0.5 * (a + c - l[4] * l[4]);
+  const double bc = 0.5 * (b + c - l[5] * l[5]);
+  const double minor = a * b - ab * ab;
+  const double det = c * minor - a * bc * bc - b * ac * ac + 2.0 * ab * ac * bc;
+  return minor > 0.0 && det > 0.0 ? std::sqrt(det) / 6.0 : 0.0;
+}
+
+template <int Dim>
+CornerPoints<Dim> corner_simplex(const Mesh<Dim>& mesh, CellId c, int k) {
+  const auto point = [&](int corner) { return mesh.points[mesh.cells[c][corner]]; };
+  std::array<Point<Dim>, Dim + 1> p{point(k)};
+  for (int d = 0; d < Dim; ++d) p[1 + d] = point(k ^ (1 << d));
+  if (Cell<Dim>::corner_sign(k) < 0) std::swap(p[1], p[2]);
+  return collapsed_simplex<Dim>(p);
+}
+
+template <int Dim>
+double least(const std::array<double, Cell<Dim>::corners>& values) {
+  return *std::min_element(values.begin(), values.end());
+}
+
+}  // namespace
+
+template <int Dim>
+double simplex_shape(const SimplexLengths<Dim>& lengths, double volume) {
+  double squares = 0.0;
+  for (const double l : lengths) squares += l * l;
+  if (!(volume > 0.0) || !(squares > 0.0)) return 0.0;
+  if constexpr (Dim == 2) {
+    return 8.0 * volume / squares;
+  } else {
+    return 9.0 * portable::pow(6.0 * volume, 2.0 / 3.0) / squares;
+  }
+}
+
+template <int Dim>
+double simplex_shape(const SimplexLengths<Dim>& lengths) {
+  return simplex_shape<Dim>(lengths, flat_volume(lengths));
+}
+
+template <int Dim>
+void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
+                 std::span<double> flat, std::span<double> integral, const LengthOptions& options) {
+  constexpr std::size_t kChunk = 512;
+  constexpr int kCorners = Cell<Dim>::corners;
+  // A volume varies less along a simplex than a length along its edge can: a coarser panel will do.
+  const VolumeOptions volume_options{.tolerance = 1e-3, .panel = 4.0 * options.panel};
+  SimplexEdges<Dim> edges;
+  std::vector<CornerPoints<Dim>> simplices;
+  std::vector<double> volumes;
+  for (std::size_t start = 0; start < cells.size(); start += kChunk) {
+    const std::span<const CellId> chunk = cells.subspan(start, std::min(kChunk, cells.size() - start));
+    edges.measure(mesh, field, chunk, options);
+    if (!integral.empty()) {
+      simplices.clear();
+      for (const CellId c : chunk) {
+        for (int k = 0; k < kCorners; ++k) simplices.push_back(corner_simplex(mesh, c, k));
+      }
+      volumes.resize(simplices.size());
+      metric_volumes<Dim>(field, simplices, volumes, volume_options);
+    }
+    for (std::size_t i = 0; i < chunk.size(); ++i) {
+      std::array<double, kCorners> eta;
+      std::array<double, kCorners> eta_integral{};
+      for (int k = 0; k < kCorners; ++k) {
+        const SimplexLengths<Dim> l = edges.simplex(i, k);
+        eta[k] = simplex_shape<Dim>(l);
+        if (!integral.empty()) eta_integral[k] = simplex_shape<Dim>(l, volumes[i * kCorners + k]);
+      }
+      flat[start + i] = least<Dim>(eta);
+      if (!integral.empty()) integral[start + i] = least<Dim>(eta_integral);
+    }
+  }
+}
+
+#define PILLOWMESH_INSTANTIATE(D)                                                                                 \
+  template double simplex_shape<D>(const SimplexLengths<D>&);                                                     \
+  template double simplex_shape<D>(const SimplexLengths<D>&, double);                                             \
+  template void cell_shapes<D>(const Mesh<D>&, const MetricField<D>&, std::span<const CellId>, std::span<double>, \
+                               std::span<double>, const LengthOptions&);
+PILLOWMESH_INSTANTIATE(2)
+PILLOWMESH_INSTANTIATE(3)
+#undef PILLOWMESH_INSTANTIATE
+
+}  // namespace pillowmesh

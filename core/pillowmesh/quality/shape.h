@@ -1,0 +1,37 @@
+// The paper's shape indicator eta, [Paper] Eq. (4): how far a cell's corners are from unit squares or cubes in the
+// metric.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "pillowmesh/mesh/mesh.h"
+#include "pillowmesh/metric/field.h"
+#include "pillowmesh/metric/length.h"
+
+namespace pillowmesh {
+
+/// Metric lengths of a corner simplex's edges: those out of the corner in axis order, then those that join their ends:
+/// l0 l1 l01 in 2D, l0 l1 l2 l01 l02 l12 in 3D.
+template <int Dim>
+using SimplexLengths = std::array<double, Dim*(Dim + 1) / 2>;
+
+/// eta = C V^(2/Dim) / sum of l^2 of the flat simplex with these edge lengths: V after Heron (2D) or Cayley and Menger
+/// (3D), C = 8 in 2D and 9 * 6^(2/3) in 3D. 1 for a right-angled unit corner, up to 1.155 (2D) beyond; 0 where no flat
+/// simplex has these lengths (our convention, the paper does not tell).
+template <int Dim>
+double simplex_shape(const SimplexLengths<Dim>& lengths);
+
+/// The same with a given metric volume, 0 if that is not positive: eta_integral when it is the integral of sqrt(det M).
+template <int Dim>
+double simplex_shape(const SimplexLengths<Dim>& lengths, double volume);
+
+/// eta of each of `cells`, the least over its 2^Dim corner simplices.
+/// \param flat out: with flat simplices. \pre flat.size() == cells.size()
+/// \param integral out: with the integral of sqrt(det M) over the corner simplices, to 0.1 %; may be empty.
+/// \param options how all edges and diagonals of the simplices are integrated.
+template <int Dim>
+void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
+                 std::span<double> flat, std::span<double> integral, const LengthOptions& options = {});
+
+}  // namespace pillowmesh
