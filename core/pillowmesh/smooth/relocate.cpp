@@ -123,9 +123,16 @@ void Relocator<Dim>::collect_terms(VertexId v) {
   const auto add = [&](CellId c, int corner, int end) {
     Term t;
     t.origin = mesh_.cells[c][corner];
-    for (int d = 0; d < Dim; ++d) t.ends[d] = mesh_.cells[c][corner ^ (1 << d)];
     t.sign = static_cast<std::int8_t>(C::corner_sign(corner));
     t.end = static_cast<std::int8_t>(end);
+    const Point<Dim>& o = mesh_.points[t.origin];
+    for (int d = 0; d < Dim; ++d) {
+      t.ends[d] = mesh_.cells[c][corner ^ (1 << d)];
+      if (end < 0 || end == d) continue;
+      const Point<Dim> e = mesh_.points[t.ends[d]] - o;
+      const double here = std::sqrt(dot(metric_[t.origin].M, e, e)), there = std::sqrt(dot(metric_[t.ends[d]].M, e, e));
+      t.ratio[d] = mean_length(here, there) / here;
+    }
     terms_.push_back(t);
   };
   for (const auto& [c, corner] : star_) {
@@ -135,18 +142,32 @@ void Relocator<Dim>::collect_terms(VertexId v) {
 }
 
 template <int Dim>
+void Relocator<Dim>::scaled_frame(const Term& t, VertexId v, const Point<Dim>& position,
+                                  const CornerMetric<Dim>& metric, Frame<Dim>& e, std::array<double, Dim>& ratio) const {
+  const Point<Dim>& o = t.end < 0 ? position : mesh_.points[t.origin];
+  const SymTensor<Dim>& M = t.end < 0 ? metric.M : metric_[t.origin].M;
+  for (int d = 0; d < Dim; ++d) {
+    const bool moves = t.ends[d] == v;
+    e[d] = (moves ? position : mesh_.points[t.ends[d]]) - o;
+    if (t.end < 0 || moves) {
+      const double here = std::sqrt(dot(M, e[d], e[d]));
+      const double there = std::sqrt(dot(moves ? metric.M : metric_[t.ends[d]].M, e[d], e[d]));
+      ratio[d] = mean_length(here, there) / here;
+    } else {
+      ratio[d] = t.ratio[d];
+    }
+    e[d] *= ratio[d];
+  }
+}
+
+template <int Dim>
 double Relocator<Dim>::energy_at(VertexId v, const Point<Dim>& position, const CornerMetric<Dim>& metric) const {
   double sum = 0.0;
   Frame<Dim> e;
+  std::array<double, Dim> ratio;
   for (const Term& t : terms_) {
-    if (t.end < 0) {
-      for (int d = 0; d < Dim; ++d) e[d] = mesh_.points[t.ends[d]] - position;
-      sum += corner_energy(e, t.sign, metric);
-    } else {
-      const Point<Dim>& o = mesh_.points[t.origin];
-      for (int d = 0; d < Dim; ++d) e[d] = (t.ends[d] == v ? position : mesh_.points[t.ends[d]]) - o;
-      sum += corner_energy(e, t.sign, metric_[t.origin]);
-    }
+    scaled_frame(t, v, position, metric, e, ratio);
+    sum += corner_energy(e, t.sign, t.end < 0 ? metric : metric_[t.origin]);
   }
   return sum;
 }
@@ -155,16 +176,18 @@ template <int Dim>
 Derivatives<Dim> Relocator<Dim>::derivatives_at(VertexId v) const {
   Derivatives<Dim> sum;
   Frame<Dim> e;
+  std::array<double, Dim> ratio, slope;
   for (const Term& t : terms_) {
-    for (int d = 0; d < Dim; ++d) e[d] = mesh_.points[t.ends[d]] - mesh_.points[t.origin];
-    add_corner_derivatives(e, t.sign, metric_[t.origin], t.end, sum);
+    scaled_frame(t, v, mesh_.points[v], metric_[v], e, ratio);
+    for (int d = 0; d < Dim; ++d) slope[d] = t.end < 0 ? -ratio[d] : (t.end == d ? ratio[d] : 0.0);
+    add_corner_derivatives<Dim>(e, t.sign, metric_[t.origin], slope, sum);
   }
-  (void)v;
   return sum;
 }
 
-/// The share of the gradient that comes from the metric at the vertex changing as it moves: central differences over
-/// `reach`, wide enough to see over a kink.
+/// The share of the gradient that comes from the metric at the vertex changing as it moves, through the lengths of its
+/// edges: d f / d l_j = 2 (l_j - s_j / l_j^3). Differences of M over `reach`, wide enough to see over a kink. The change
+/// of the angles with M is left out.
 template <int Dim>
 void Relocator<Dim>::add_metric_gradient(VertexId v, double reach, Derivatives<Dim>& d) const {
   std::array<Point<Dim>, 2 * Dim> at;
@@ -172,16 +195,27 @@ void Relocator<Dim>::add_metric_gradient(VertexId v, double reach, Derivatives<D
   for (int i = 0; i < Dim; ++i)
     for (int s = 0; s < 2; ++s) at[2 * i + s] = mesh_.points[v] + (s ? reach : -reach) * Point<Dim>::Unit(i);
   field_.evaluate(at, M);
-  std::array<CornerMetric<Dim>, 2 * Dim> metric;
-  for (int i = 0; i < 2 * Dim; ++i) metric[i] = corner_metric(M[i]);
-  std::array<double, 2 * Dim> value{};
+  std::array<SymTensor<Dim>, Dim> slope;
+  for (int i = 0; i < Dim; ++i) slope[i] = (0.5 / reach) * (M[2 * i + 1] + (-1.0) * M[2 * i]);
+
   Frame<Dim> e;
+  std::array<double, Dim> ratio;
   for (const Term& t : terms_) {
-    if (t.end >= 0) continue;
-    for (int k = 0; k < Dim; ++k) e[k] = mesh_.points[t.ends[k]] - mesh_.points[v];
-    for (int i = 0; i < 2 * Dim; ++i) value[i] += corner_energy(e, t.sign, metric[i]);
+    const CornerMetric<Dim>& metric = metric_[t.origin];
+    scaled_frame(t, v, mesh_.points[v], metric_[v], e, ratio);
+    const auto c = cofactors(e);
+    const double det = c[0].dot(e[0]);
+    for (int j = 0; j < Dim; ++j) {
+      if (t.end >= 0 && t.end != j) continue;
+      const double l2 = dot(metric.M, e[j], e[j]), l = std::sqrt(l2);
+      const double weight = 2.0 * (l2 - dot(metric.inverse, c[j], c[j]) / (det * det)) / l;
+      const Point<Dim> edge = e[j] / ratio[j];
+      const VertexId w = t.end < 0 ? t.ends[j] : t.origin;
+      const double a = std::sqrt(dot(metric_[v].M, edge, edge)), b = std::sqrt(dot(metric_[w].M, edge, edge));
+      const double by_a = weight * mean_length_slope(a, b) / (2.0 * a);
+      for (int i = 0; i < Dim; ++i) d.gradient[i] += by_a * dot(slope[i], edge, edge);
+    }
   }
-  for (int i = 0; i < Dim; ++i) d.gradient[i] += (value[2 * i + 1] - value[2 * i]) / (2 * reach);
 }
 
 template <int Dim>

@@ -43,9 +43,14 @@ class Relocator {
     VertexId origin;
     std::int8_t sign;
     std::int8_t end;  ///< which of its edges ends at the vertex; -1: the vertex is the corner
+    /// Per edge: its length over its length in the metric at the corner; kept for the edges that do not move.
+    std::array<double, Dim> ratio;
   };
 
   void collect_terms(VertexId v);
+  /// The corner's edge vectors, scaled by their ratios, with v at `position` and its metric `metric`.
+  void scaled_frame(const Term& t, VertexId v, const Point<Dim>& position, const CornerMetric<Dim>& metric,
+                    Frame<Dim>& e, std::array<double, Dim>& ratio) const;
   [[nodiscard]] double energy_at(VertexId v, const Point<Dim>& position, const CornerMetric<Dim>& metric) const;
   [[nodiscard]] Derivatives<Dim> derivatives_at(VertexId v) const;
   void add_metric_gradient(VertexId v, double reach, Derivatives<Dim>& d) const;
