@@ -1,0 +1,47 @@
+// The subcommands of `pillowmesh`: what each is asked to do, and its exit status.
+#pragma once
+
+#include <string>
+
+#include "pillowmesh/adapt/options.h"
+#include "pillowmesh/io/io.h"
+
+namespace pillowmesh::cli {
+
+/// Where mesh and metric come from.
+struct ProblemFlags {
+  std::string input;      ///< a file, grid:..., or empty: the mesh of the case
+  std::string metric;     ///< a formula
+  std::string case_name;  ///< a name of the gallery
+  double size_scale = 1.0;
+};
+
+struct AdaptFlags {
+  ProblemFlags problem;
+  AdaptOptions options;
+  WriteOptions write;
+  std::string output;
+  std::string steps;   ///< folder for one file per iteration
+  std::string report;  ///< file, or "-"
+  bool quiet = false;
+};
+
+struct MeasureFlags {
+  ProblemFlags problem;
+  std::string report;
+};
+
+struct ConvertFlags {
+  std::string input, output;
+  WriteOptions write;
+};
+
+int adapt(const AdaptFlags& flags);
+int measure(const MeasureFlags& flags);
+int convert(const ConvertFlags& flags);
+int cases();
+
+/// Prints the sentence of `status` to stderr. \return the exit status of the command
+int fail(const Status& status);
+
+}  // namespace pillowmesh::cli

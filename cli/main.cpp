@@ -1,0 +1,171 @@
+// The command line: options, help, exit status. 0 done; 1 finished but a limit was not met; 2 usage; 3 bad input.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/problem.h"
+
+namespace pillowmesh::cli {
+
+int fail(const Status& status) {
+  std::fflush(stdout);
+  std::fprintf(stderr, "pillowmesh: %s\n", status.message.c_str());
+  const int code = static_cast<int>(status.code);
+  return code >= 1 && code <= 3 ? code : 1;
+}
+
+namespace {
+
+constexpr const char* kMeshHelp =
+    "Meshes: .mesh .meshb (Medit), .msh (Gmsh 2.2 and 4.1), .vtk, .vtu; all quads or all hexahedra; or\n"
+    "grid:NX,NY[,NZ]:X0,X1,Y0,Y1[,Z0,Z1].\n";
+constexpr const char* kMetricHelp =
+    "Metric: statements `name = expression;` over x, y, z, r = |(x,y,z)|, pi and earlier names, with + - * / ^,\n"
+    "comparison, if(c,a,b), sqrt exp log sin cos tan atan2 asin acos tanh abs min max pow floor. The result is `h`;\n"
+    "or `h1 h2 theta` (2D), `h1 h2 h3 [theta phi]` (3D); or the tensor `m11 m12 m22 [m13 m23 m33]`.\n";
+constexpr const char* kExitHelp =
+    "Exit status: 0 done; 1 finished, but a requested limit was not met; 2 usage; 3 bad input.\n";
+
+void add_problem(CLI::App& app, ProblemFlags& flags) {
+  app.add_option("input", flags.input, "Mesh file or grid:...; may be left out with --case");
+  app.add_option("--metric", flags.metric, "Metric formula")->type_name("FORMULA");
+  app.add_option("--case", flags.case_name, "Named case: its metric, and its mesh if none is given (see cases)")
+      ->type_name("NAME");
+  app.add_option("--size-scale", flags.size_scale, "Multiplies all sizes of the metric")->type_name("F");
+}
+
+void add_write(CLI::App& app, WriteOptions& write, std::string& gmsh) {
+  app.add_flag("--binary", write.binary, "Write the binary variant of the format");
+  app.add_option("--gmsh-version", gmsh, "Version of a .msh file: 2.2 or 4.1 (default 4.1)")->type_name("V");
+}
+
+/// The options of AdaptOptions: parsed by set_option, which the page and permalinks use too.
+struct OptionHelp {
+  const char* name;
+  const char* type;
+  const char* text;
+};
+constexpr OptionHelp kOptions[] = {
+    {"method", "paper", "Refinement by the paper's buffer layers (the default)"},
+    {"threshold", "L", "Refine edges with a metric length above L (default 2)"},
+    {"smooth", "none|end|between", "When vertices are relocated (default end; between: after each iteration too)"},
+    {"dice", "N", "Refine N times coarser, then split each cell in N^dim (default 1)"},
+    {"thickness", "K", "Cells across a layer at its seed (default 1)"},
+    {"augment", "N", "Rings of cells added at the ends of a layer (default 1)"},
+    {"max-cells", "N", "Stop with a valid mesh before it has more cells (default 10000000)"},
+    {"max-iterations", "N", "Iterations at the most (default 30)"},
+    {"max-sweeps", "N", "Sweeps of the smoother at the most, each time it runs (default 200)"},
+};
+
+Status set_gmsh_version(WriteOptions& write, const std::string& text) {
+  if (text.empty()) return {};
+  if (text == "2.2" || text == "22" || text == "2") {
+    write.gmsh_version = 22;
+  } else if (text == "4.1" || text == "41" || text == "4") {
+    write.gmsh_version = 41;
+  } else {
+    return Status::usage("--gmsh-version is 2.2 or 4.1, not '" + text + "'");
+  }
+  return {};
+}
+
+/// CLI11's exceptions end here. \return the exit status
+int usage_error(const CLI::App& app, const CLI::Error& error, int argc, char** argv) {
+  std::string hint;
+  const std::vector<std::string> commands{"adapt", "measure", "convert", "cases"};
+  if (argc > 1 && app.get_subcommands().empty()) {
+    const std::string near = argv[1][0] == '-' ? "" : nearest(argv[1], commands);
+    if (!near.empty() && near != argv[1]) hint = "; did you mean '" + near + "'?";
+  }
+  const auto used = app.get_subcommands();
+  const std::string name = used.empty() ? "pillowmesh" : "pillowmesh " + used.front()->get_name();
+  return fail(Status::usage(std::string(error.what()) + hint + " (see " + name + " --help)"));
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Adapts all-quadrilateral and all-hexahedral meshes to an anisotropic metric."};
+  app.name("pillowmesh");
+  app.set_version_flag("--version", "pillowmesh " PILLOWMESH_VERSION);
+  app.require_subcommand(1);
+  app.footer(std::string("Examples:\n"
+                         "  pillowmesh adapt --case iso2d -o iso2d.vtu\n"
+                         "  pillowmesh adapt plate.msh --metric \"h = 0.02 + 0.15*abs(x-2)\" -o adapted.msh\n"
+                         "  pillowmesh measure adapted.msh --metric \"h = 0.02 + 0.15*abs(x-2)\" --report report.json\n"
+                         "  pillowmesh convert adapted.msh adapted.vtu --binary\n\n") +
+             kExitHelp);
+
+  AdaptFlags adapt_flags;
+  std::string adapt_gmsh;
+  std::map<std::string, std::string> given;
+  CLI::App* adapt_app = app.add_subcommand("adapt", "Adapt a mesh to a metric");
+  add_problem(*adapt_app, adapt_flags.problem);
+  for (const OptionHelp& o : kOptions)
+    adapt_app->add_option(std::string("--") + o.name, given[o.name], o.text)->type_name(o.type);
+  adapt_app->add_option("-o,--output", adapt_flags.output, "Adapted mesh; its ending chooses the format")
+      ->type_name("OUT");
+  add_write(*adapt_app, adapt_flags.write, adapt_gmsh);
+  adapt_app->add_option("--steps", adapt_flags.steps, "Write the mesh after each iteration: DIR/step-000.vtu, ...")
+      ->type_name("DIR");
+  adapt_app->add_option("--report", adapt_flags.report, "Write the indicators as JSON; - for stdout")
+      ->type_name("R.json");
+  adapt_app->add_flag("-q,--quiet", adapt_flags.quiet, "No progress line, no table");
+  adapt_app->footer(std::string("Examples:\n"
+                                "  pillowmesh adapt --case aniso2d -o aniso2d.vtu --steps steps\n"
+                                "  pillowmesh adapt plate.msh --metric \"h = 0.02 + 0.15*abs(x-2)\" -o out.vtu\n"
+                                "  pillowmesh adapt grid:8,8:0,1,0,1 --metric \"h1 = 0.2; h2 = 0.01 + 0.2*y\" --smooth "
+                                "between -o out.mesh\n"
+                                "  pillowmesh adapt --case circle2d --dice 3 --report -\n\n") +
+                    kMeshHelp + kMetricHelp + "Ctrl-C stops with the valid mesh that is there (exit status 1).\n" +
+                    kExitHelp);
+
+  MeasureFlags measure_flags;
+  CLI::App* measure_app = app.add_subcommand("measure", "Print the indicators of any quad or hex mesh");
+  add_problem(*measure_app, measure_flags.problem);
+  measure_app->add_option("--report", measure_flags.report, "Write the indicators as JSON; - for stdout")
+      ->type_name("R.json");
+  measure_app->footer(std::string("Examples:\n"
+                                  "  pillowmesh measure --case iso2d\n"
+                                  "  pillowmesh measure out.vtu --metric \"h = 0.1\" --report -\n\n") +
+                      kMeshHelp + kMetricHelp + kExitHelp);
+
+  ConvertFlags convert_flags;
+  std::string convert_gmsh;
+  CLI::App* convert_app = app.add_subcommand("convert", "Convert a mesh to another format; groups are kept");
+  convert_app->add_option("input", convert_flags.input, "Mesh file or grid:...")->required();
+  convert_app->add_option("output", convert_flags.output, "Mesh file; its ending chooses the format")->required();
+  add_write(*convert_app, convert_flags.write, convert_gmsh);
+  convert_app->footer(std::string("Examples:\n"
+                                  "  pillowmesh convert plate.msh plate.vtu --binary\n"
+                                  "  pillowmesh convert plate.vtk plate.msh --gmsh-version 2.2\n"
+                                  "  pillowmesh convert grid:4,4:0,1,0,1 square.mesh\n\n") +
+                      kMeshHelp + kExitHelp);
+
+  CLI::App* cases_app = app.add_subcommand("cases", "List the named cases: mesh and metric of each");
+  cases_app->footer("Example:\n  pillowmesh adapt --case iso2d -o iso2d.vtu\n");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& done) {  // --help, --version
+    return app.exit(done);
+  } catch (const CLI::Error& error) {
+    return usage_error(app, error, argc, argv);
+  }
+  for (const OptionHelp& o : kOptions)
+    if (adapt_app->count(std::string("--") + o.name) > 0)
+      if (Status s = set_option(adapt_flags.options, o.name, given[o.name]); !s.ok()) return fail(s);
+  if (Status s = set_gmsh_version(adapt_flags.write, adapt_gmsh); !s.ok()) return fail(s);
+  if (Status s = set_gmsh_version(convert_flags.write, convert_gmsh); !s.ok()) return fail(s);
+
+  if (*adapt_app) return adapt(adapt_flags);
+  if (*measure_app) return measure(measure_flags);
+  if (*convert_app) return convert(convert_flags);
+  return cases();
+}
+
+}  // namespace
+}  // namespace pillowmesh::cli
+
+int main(int argc, char** argv) { return pillowmesh::cli::run(argc, argv); }

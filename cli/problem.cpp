@@ -1,0 +1,111 @@
+#include "cli/problem.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "pillowmesh/metric/gallery.h"
+
+namespace pillowmesh::cli {
+namespace {
+
+Expected<const Case*> named_case(const std::string& name) {
+  if (const Case* c = find_case(name)) return c;
+  std::vector<std::string> names;
+  std::string all;
+  for (const Case& c : gallery()) {
+    names.emplace_back(c.name);
+    all += (all.empty() ? "" : " ") + names.back();
+  }
+  const std::string near = nearest(name, names);
+  return Status::usage("there is no case '" + name + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                       " (cases: " + all + ")");
+}
+
+/// Insertions, deletions and replacements that turn a into b.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
+  std::string best;
+  std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const std::string& c : candidates) {
+    const std::size_t distance = edit_distance(word, c);
+    if (distance < least) {
+      least = distance;
+      best = c;
+    }
+  }
+  return best;
+}
+
+Expected<AnyMesh> load_mesh(const std::string& input) {
+  return input.starts_with("grid:") ? parse_grid(input) : read_mesh_file(input);
+}
+
+Expected<AnyMesh> problem_mesh(const ProblemFlags& flags) {
+  if (!(flags.size_scale > 0.0 && flags.size_scale < 1e300))
+    return Status::usage("--size-scale takes a number above 0");
+  if (!flags.metric.empty() && !flags.case_name.empty()) return Status::usage("--metric and --case exclude each other");
+  if (flags.metric.empty() && flags.case_name.empty())
+    return Status::usage("a metric is missing: give --metric \"h = ...\" or --case NAME");
+  if (!flags.case_name.empty()) {
+    auto c = named_case(flags.case_name);
+    if (!c) return c.status();
+    if (flags.input.empty()) return parse_grid((*c)->mesh);
+  }
+  if (flags.input.empty()) return Status::usage("a mesh is missing: give a file, grid:... or --case NAME");
+  return load_mesh(flags.input);
+}
+
+template <int Dim>
+Expected<MetricField<Dim>> problem_metric(const ProblemFlags& flags) {
+  std::string formula = flags.metric;
+  if (!flags.case_name.empty()) {
+    auto c = named_case(flags.case_name);
+    if (!c) return c.status();
+    if ((*c)->dim != Dim)
+      return Status::usage("the case " + flags.case_name + " is " + std::to_string((*c)->dim) +
+                           "-dimensional, but the mesh is " + std::to_string(Dim) + "-dimensional");
+    formula = (*c)->formula;
+  }
+  auto field = MetricField<Dim>::from_formula(formula);
+  if (!field || flags.size_scale == 1.0) return field;
+  return field->scaled(flags.size_scale);
+}
+
+Status check_not_input(const std::string& output, const std::string& input) {
+  std::error_code ignored;
+  if (output.empty() || output == "-" || input.empty() || !std::filesystem::equivalent(output, input, ignored))
+    return {};
+  return Status::usage(output + " is the input file; write to another name");
+}
+
+Status check_output(const std::string& output, const std::string& input, const WriteOptions& options) {
+  if (output.empty()) return {};
+  if (Status s = check_writable(output, options); !s.ok()) return s;
+  std::error_code ignored;
+  const std::filesystem::path folder = std::filesystem::path(output).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
+    return Status::usage(output + ": cannot be written: there is no folder " + folder.string());
+  if (std::filesystem::is_directory(output, ignored)) return Status::usage(output + " is a folder");
+  return check_not_input(output, input);
+}
+
+template Expected<MetricField<2>> problem_metric<2>(const ProblemFlags&);
+template Expected<MetricField<3>> problem_metric<3>(const ProblemFlags&);
+
+}  // namespace pillowmesh::cli

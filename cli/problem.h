@@ -1,0 +1,30 @@
+// From the command line to a mesh and a metric.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/commands.h"
+#include "pillowmesh/metric/field.h"
+
+namespace pillowmesh::cli {
+
+/// A mesh file or `grid:...`.
+Expected<AnyMesh> load_mesh(const std::string& input);
+
+/// The mesh that the flags name.
+Expected<AnyMesh> problem_mesh(const ProblemFlags& flags);
+
+/// The metric that the flags name, its sizes scaled. Checks that a case fits the mesh's dimension.
+template <int Dim>
+Expected<MetricField<Dim>> problem_metric(const ProblemFlags& flags);
+
+/// usage when `output` is the file `input`, or its ending is unknown: what can be said before any work is done.
+Status check_output(const std::string& output, const std::string& input, const WriteOptions& options);
+Status check_not_input(const std::string& output, const std::string& input);
+
+/// The candidate nearest to a misspelled `word`, or empty when none is near.
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+}  // namespace pillowmesh::cli
