@@ -109,7 +109,7 @@ const programs = {
 
 export const peerNames = Object.keys(programs).filter((name) => which(programs[name].command) !== null);
 
-/** Runs a peer with all sizes multiplied by `scale`: { program, scale, cells, seconds, cells_per_second, ... }. */
+/** Runs a peer with all sizes multiplied by `scale`: { program, scale, cells, process_seconds, ... }. */
 export function runPeer(name, scale) {
   const program = programs[name];
   const folder = mkdtempSync(join(tmpdir(), 'pillowmesh-bench-'));
@@ -118,7 +118,8 @@ export function runPeer(name, scale) {
     const { seconds, peakBytes, status } = timed(program.command, program.args(scale), folder);
     if (status !== 0) return { program: name, scale, error: `status ${status}` };
     const cells = program.count(readFileSync(join(folder, program.output), 'latin1'));
-    return { program: name, scale, cells, seconds, cells_per_second: cells / seconds, peak_bytes_per_cell: peakBytes / cells };
+    const rate = cells / seconds;
+    return { program: name, scale, cells, process_seconds: seconds, process_cells_per_second: rate, peak_bytes_per_cell: peakBytes / cells };
   } finally {
     rmSync(folder, { recursive: true });
   }
