@@ -43,7 +43,8 @@ function bamgBackground(scale) {
   for (let j = 0; j < rows; ++j) {
     edges.push(`${id(columns, j)} ${id(columns, j + 1)} 2`, `${id(0, j + 1)} ${id(0, j)} 4`);
     for (let i = 0; i < columns; ++i) {
-      triangles.push(`${id(i, j)} ${id(i + 1, j)} ${id(i + 1, j + 1)} 1`, `${id(i, j)} ${id(i + 1, j + 1)} ${id(i, j + 1)} 1`);
+      const far = id(i + 1, j + 1);
+      triangles.push(`${id(i, j)} ${id(i + 1, j)} ${far} 1`, `${id(i, j)} ${far} ${id(i, j + 1)} 1`);
     }
   }
   const block = (name, lines) => `${name}\n${lines.length}\n${lines.join('\n')}\n`;
@@ -93,8 +94,8 @@ const programs = {
     command: 'ffbamg',
     files: (scale) => ({ 'background.mesh': bamgBackground(scale), 'size.mtr': bamgMetric(scale) }),
     // -nbv: memory set aside for vertices, background included.
-    args: (scale) => ['-b', 'background.mesh', '-M', 'size.mtr', '-nbv', String(Math.ceil(5000 / scale ** 2) + 50_000), '-v', '0',
-      '-o', 'out.mesh'],
+    args: (scale) => ['-b', 'background.mesh', '-M', 'size.mtr', '-o', 'out.mesh', '-v', '0',
+      '-nbv', String(Math.ceil(5000 / scale ** 2) + 50_000)],
     output: 'out.mesh',
     count: (text) => 3 * countAfter(text, 'Triangles'),
   },
@@ -118,8 +119,14 @@ export function runPeer(name, scale) {
     const { seconds, peakBytes, status } = timed(program.command, program.args(scale), folder);
     if (status !== 0) return { program: name, scale, error: `status ${status}` };
     const cells = program.count(readFileSync(join(folder, program.output), 'latin1'));
-    const rate = cells / seconds;
-    return { program: name, scale, cells, process_seconds: seconds, process_cells_per_second: rate, peak_bytes_per_cell: peakBytes / cells };
+    return {
+      program: name,
+      scale,
+      cells,
+      process_seconds: seconds,
+      process_cells_per_second: cells / seconds,
+      peak_bytes_per_cell: peakBytes / cells,
+    };
   } finally {
     rmSync(folder, { recursive: true });
   }

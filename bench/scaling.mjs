@@ -1,5 +1,6 @@
 // End to end: pillowmesh on case iso2d with sizes divided by 1, 2, 4, ..., layers only (no relocation), single thread.
-// Prints JSON. Usage: node bench/scaling.mjs [--max-cells N] [--repeat N] [--peers] [--case NAME] [--smooth none|end|between]
+// Prints JSON.
+// Usage: node bench/scaling.mjs [--max-cells N] [--repeat N] [--peers] [--case NAME] [--smooth none|end|between]
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { cpus, tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -78,11 +79,13 @@ await main(() => {
       for (const { scale } of rows) {
         const row = runPeer(name, scale);
         peers.push(row);
-        console.error(`${name}: ${row.error ?? `${row.cells} cells, ${Math.round(row.process_cells_per_second)} per second`}`);
+        const rate = Math.round(row.process_cells_per_second);
+        console.error(`${name}: ${row.error ?? `${row.cells} cells, ${rate} per second`}`);
         if (row.error || row.process_seconds > 100) break;
       }
     }
   }
   const machine = { cpu: cpus()[0]?.model, node: process.version };
-  console.log(JSON.stringify({ case: options.case, smooth: options.smooth, machine, pillowmesh: rows, peers }, null, 2));
+  const { smooth } = options;
+  console.log(JSON.stringify({ case: options.case, smooth, machine, pillowmesh: rows, peers }, null, 2));
 });

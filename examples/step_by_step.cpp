@@ -24,7 +24,7 @@ int main() {
     }
   }
   const Report report = measure(adapter.mesh(), *field);
-  std::printf("edge length %.3f on average (cv %.3f), worst shape %.3f\n", report.edge_length.mean, report.edge_length.cv,
-              report.shape.min);
+  const Statistics& length = report.edge_length;
+  std::printf("edge length %.3f on average (cv %.3f), worst shape %.3f\n", length.mean, length.cv, report.shape.min);
   return adapter.outcome().ok() && report.valid ? 0 : 1;
 }

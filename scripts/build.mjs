@@ -1,10 +1,11 @@
-// Builds CMake presets; ninja rebuilds only what changed. Usage: node scripts/build.mjs [PRESET...], default: release wasm
+// Builds CMake presets; ninja rebuilds only what changed.
+// Usage: node scripts/build.mjs [PRESET...], default: release wasm
 import { existsSync, readFileSync, rmSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
 import { Failure, isMain, main, root, run } from './run.mjs';
 
-/** Configures (once) and builds a preset of CMakePresets.json. */
+/** Configures (once) and builds a preset of CMakePresets.json. Everything printed goes to stderr. */
 export function build(preset) {
   const folder = join(root, 'build', preset);
   const cache = join(folder, 'CMakeCache.txt');
@@ -13,11 +14,12 @@ export function build(preset) {
     rmSync(folder, { recursive: true });
   }
   if (!existsSync(join(folder, 'build.ninja'))) {
-    console.log(`Configuring ${preset}`);
-    if (!run('cmake', ['--preset', preset])) throw new Failure(`cmake --preset ${preset} failed (see above)`);
+    console.error(`Configuring ${preset}`);
+    const configured = run('cmake', ['--preset', preset], { stdout: 2 });
+    if (!configured) throw new Failure(`cmake --preset ${preset} failed (see above)`);
   }
-  console.log(`Building ${preset}`);
-  if (!run('cmake', ['--build', '--preset', preset, '-j', String(availableParallelism())])) {
+  console.error(`Building ${preset}`);
+  if (!run('cmake', ['--build', '--preset', preset, '-j', String(availableParallelism())], { stdout: 2 })) {
     throw new Failure(`building ${preset} failed (see above)`);
   }
 }

@@ -23,14 +23,14 @@ export function which(command) {
 }
 
 /**
- * Runs a command in the root folder, its output going where ours goes.
+ * Runs a command in the root folder, its output going where ours goes; `stdout: 2` sends all of it to stderr.
  * @returns true when it ended with status 0
  */
-export function run(command, args, { env = {}, quiet = false, cwd = root } = {}) {
+export function run(command, args, { env = {}, quiet = false, stdout = 1, cwd = root } = {}) {
   const result = spawnSync(command, args, {
     cwd,
     env: { ...process.env, ...env },
-    stdio: quiet ? ['ignore', 'ignore', 'ignore'] : ['ignore', 'inherit', 'inherit'],
+    stdio: quiet ? 'ignore' : ['ignore', stdout, 2],
   });
   return result.status === 0;
 }

@@ -10,7 +10,7 @@ function result(passed, failed, ok) {
   const silent = !ok && failed === 0;
   return {
     count: { passed, failed: silent ? 1 : failed },
-    note: silent ? 'the runner ended with an error although no test failed' : passed + failed === 0 ? 'no test ran' : '',
+    note: silent ? 'the runner ended with an error, or did not run at all' : passed + failed === 0 ? 'no test ran' : '',
   };
 }
 

@@ -58,10 +58,10 @@ try {
   add('build', { passed: 0, failed: 1 }, 0);
 }
 
-console.log('\nsuite        passed  failed  seconds');
+console.log('\nsuite        passed  failed seconds');
 for (const { name, passed, failed, seconds } of rows) {
-  const cells = [name.padEnd(10), String(passed).padStart(8), String(failed).padStart(7), seconds.toFixed(1).padStart(8)];
-  console.log(cells.join(' '));
+  const numbers = [passed, failed, seconds.toFixed(1)].map((number) => String(number).padStart(8));
+  console.log(`${name.padEnd(11)}${numbers.join('')}`);
 }
 const summary = `${passed} passed, ${failed} failed`;
 writeFileSync(join(results, 'summary.txt'), `${summary}\n`);
