@@ -64,7 +64,7 @@ class VolumeIntegrator {
   static constexpr std::size_t kBatch = kLanes / (kCoarse + kFine);
 
   void divide(Index c) {
-    constexpr double kMost = Dim == 2 ? 16.0 : 4.0;
+    constexpr double kMost = Dim == 2 ? 16.0 : 2.0;
     const CornerPoints<Dim>& p = cells_[c];
     double longest = 0.0;
     for (int k = 1; options_.panel > 0.0 && k < Cell<Dim>::corners; ++k) {
@@ -148,7 +148,7 @@ class VolumeIntegrator {
         }
         // value[half .. 2 half) now holds d/du_d over the axes below d; collapse it to a number.
         std::array<double, Cell<Dim>::corners> slope;
-        std::copy(value.begin() + half, value.begin() + 2 * half, slope.begin());
+        for (int k = 0; k < half; ++k) slope[k] = value[half + k];
         for (int e = d - 1; e >= 0; --e) {
           for (int k = 0; k < (1 << e); ++k) slope[k] += u[e] * (slope[k + (1 << e)] - slope[k]);
         }

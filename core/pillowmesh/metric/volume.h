@@ -21,9 +21,14 @@ CornerPoints<Dim> collapsed_simplex(const std::array<Point<Dim>, Dim + 1>& p);
 struct VolumeOptions {
   /// Relative error aimed at.
   double tolerance = 1e-4;
-  /// Pieces longer than this are divided before anything is compared, to the 16th (2D) or 4th (3D) of an edge at most:
+  /// Pieces longer than this are divided before anything is compared, to the 16th (2D) or half (3D) of an edge at most:
   /// narrow features of the metric must not fall between the sample points. 0: one piece per cell.
   double panel = 0.0;
+
+  /// As finely as `length_panel` looks at edges, but for the cost: 4 (2D) or 16 times (3D) as coarse.
+  static VolumeOptions for_panel(int dim, double length_panel, double tolerance) {
+    return {.tolerance = tolerance, .panel = (dim == 2 ? 4.0 : 16.0) * length_panel};
+  }
 };
 
 /// Metric volume of each cell; negative where the map is inside out. Gauss rules of 2^Dim and 3^Dim points, divided

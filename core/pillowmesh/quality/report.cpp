@@ -76,7 +76,7 @@ Report measure(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
   measure_lengths(mesh, field, options, report);
   measure_cells(mesh, field, options, report);
   for (const unsigned char mark : irregular_vertices(mesh)) report.irregular_vertices += mark;
-  report.complexity = complexity(mesh, field, {.tolerance = 1e-5, .panel = 4.0 * options.panel});
+  report.complexity = complexity(mesh, field, VolumeOptions::for_panel(Dim, options.panel, Dim == 2 ? 1e-4 : 3e-4));
   return report;
 }
 

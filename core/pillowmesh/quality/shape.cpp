@@ -135,8 +135,7 @@ void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span
                  std::span<double> flat, std::span<double> integral, const LengthOptions& options) {
   constexpr std::size_t kChunk = 512;
   constexpr int kCorners = Cell<Dim>::corners;
-  // A volume varies less along a simplex than a length along its edge can: a coarser panel will do.
-  const VolumeOptions volume_options{.tolerance = 1e-3, .panel = 4.0 * options.panel};
+  const VolumeOptions volume_options = VolumeOptions::for_panel(Dim, options.panel, Dim == 2 ? 1e-3 : 5e-3);
   SimplexEdges<Dim> edges;
   std::vector<CornerPoints<Dim>> simplices;
   std::vector<double> volumes;

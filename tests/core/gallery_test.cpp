@@ -1,0 +1,87 @@
+#include "pillowmesh/metric/gallery.h"
+
+#include <set>
+#include <string>
+#include <variant>
+
+#include "../catch.h"
+#include "pillowmesh/mesh/primitives.h"
+#include "pillowmesh/metric/field.h"
+
+using namespace pillowmesh;
+
+TEST_CASE("every case has a mesh on which its metric can be used") {
+  for (const Case& c : gallery()) {
+    CAPTURE(std::string(c.name));
+    const Expected<AnyMesh> mesh = parse_grid(c.mesh);
+    REQUIRE(mesh);
+    const auto check = [&]<int Dim>(const Mesh<Dim>& m) {
+      CHECK(c.dim == Dim);
+      const Expected<MetricField<Dim>> field = MetricField<Dim>::from_formula(c.formula);
+      INFO(field.status().message);
+      REQUIRE(field);
+      const Status status = field->check(m.points);
+      INFO(status.message);
+      CHECK(status.ok());
+    };
+    std::visit(check, *mesh);
+  }
+}
+
+TEST_CASE("names are unique and found") {
+  std::set<std::string_view> names;
+  for (const Case& c : gallery()) {
+    CHECK(names.insert(c.name).second);
+    CHECK(find_case(c.name) == &c);
+    CHECK_FALSE(c.title.empty());
+    CHECK_FALSE(c.source.empty());
+  }
+  for (const char* name : {"iso2d", "aniso2d", "circle2d", "linear3d", "sphere3d-paper", "sphere3d"})
+    CHECK(find_case(name));
+  CHECK(find_case("nothing") == nullptr);
+  CHECK(find_case("") == nullptr);
+}
+
+TEST_CASE("iso2d is continuous where its pieces meet") {
+  const auto field = *MetricField<2>::from_formula(find_case("iso2d")->formula);
+  for (const double y : {2.0, 4.5, 7.0}) {
+    const double below = field.evaluate(Point<2>(1, y - 1e-12)).m[0];
+    CHECK(field.evaluate(Point<2>(1, y + 1e-12)).m[0] == Approx(below).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("the circle's metric is finest on the circle and thin along the radius") {
+  const auto field = *MetricField<2>::from_formula(find_case("circle2d")->formula);
+  const Point<2> outward(0.3, 0.4);
+  const SymTensor<2> M = field.evaluate(outward);
+  // r = 0.5: h1 = 1/240 along the radius, h2 = 1/60 across.
+  CHECK(dot(M, outward, outward) == Approx(120.0 * 120.0));
+  const Point<2> across(-0.4, 0.3);
+  CHECK(dot(M, across, across) == Approx(30.0 * 30.0));
+}
+
+TEST_CASE("sphere3d is thin along the radius, sphere3d-paper is not") {
+  const Point<3> p = Point<3>(1, 2, 2) / 6.0;  // r = 0.5
+  const double thin = 40.0 * 40.0;             // (r / h1)^2
+  CHECK(dot((*MetricField<3>::from_formula(find_case("sphere3d")->formula)).evaluate(p), p, p) == Approx(thin));
+  CHECK(dot((*MetricField<3>::from_formula(find_case("sphere3d-paper")->formula)).evaluate(p), p, p) < 0.9 * thin);
+}
+
+TEST_CASE("sphere3d-paper rotates in the order that the paper prints") {
+  const Point<3> p(0.3, 0.5, 0.2);
+  const double r = p.norm();
+  const double t = std::atan2(p[1], p[0]);
+  const double f = std::acos(p[2] / r) - std::acos(0.0);
+  Eigen::Matrix3d rt;
+  rt << std::cos(t), -std::sin(t), 0, std::sin(t), std::cos(t), 0, 0, 0, 1;
+  Eigen::Matrix3d rp;
+  rp << std::cos(f), 0, std::sin(f), 0, 1, 0, -std::sin(f), 0, std::cos(f);
+  const double h1 = r / 40 + 3 * std::fabs(0.5 - r) / 2;
+  const double h2 = r / 10 + 3 * std::fabs(0.5 - r) / 2;
+  const Eigen::Matrix3d d = Eigen::Vector3d(1 / (h1 * h1), 1 / (h2 * h2), 1 / (h2 * h2)).asDiagonal();
+  const Eigen::Matrix3d wanted = rp * rt * d * rt.transpose() * rp.transpose();
+  const SymTensor<3> M = (*MetricField<3>::from_formula(find_case("sphere3d-paper")->formula)).evaluate(p);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) CHECK(M(i, j) == Approx(wanted(i, j)).margin(1e-9));
+  }
+}

@@ -1,0 +1,92 @@
+#include "pillowmesh/metric/portable_math.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+
+#include "../catch.h"
+
+using namespace pillowmesh;
+
+namespace {
+
+// Distance in units of the last place of the reference.
+double ulps(double value, double reference) {
+  if (value == reference) return 0.0;
+  const double ulp = std::fabs(std::nextafter(reference, std::numeric_limits<double>::infinity()) - reference);
+  return std::fabs(value - reference) / ulp;
+}
+
+template <class F, class G>
+double worst(F ours, G reference, double low, double high) {
+  std::mt19937_64 random(7);
+  double most = 0.0;
+  for (int i = 0; i < 20000; ++i) {
+    const double x = low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
+    most = std::max(most, ulps(ours(x), reference(x)));
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("portable functions agree with the system's within two units in the last place") {
+  CHECK(worst(
+            portable::exp, [](double x) { return std::exp(x); }, -700, 700) <= 2);
+  CHECK(worst(
+            portable::log, [](double x) { return std::log(x); }, 1e-9, 50) <= 2);
+  CHECK(worst(
+            portable::sin, [](double x) { return std::sin(x); }, -1e6, 1e6) <= 2);
+  CHECK(worst(
+            portable::cos, [](double x) { return std::cos(x); }, -30, 30) <= 2);
+  CHECK(worst(
+            portable::tan, [](double x) { return std::tan(x); }, -30, 30) <= 2);
+  CHECK(worst(
+            portable::atan, [](double x) { return std::atan(x); }, -30, 30) <= 2);
+  CHECK(worst(
+            portable::asin, [](double x) { return std::asin(x); }, -1, 1) <= 2);
+  CHECK(worst(
+            portable::acos, [](double x) { return std::acos(x); }, -1, 1) <= 2);
+  CHECK(worst(
+            portable::tanh, [](double x) { return std::tanh(x); }, -5, 5) <= 3);
+  CHECK(worst(
+            portable::expm1, [](double x) { return std::expm1(x); }, -5, 5) <= 2);
+  CHECK(worst([](double x) { return portable::pow(x, 1.7); }, [](double x) { return std::pow(x, 1.7); }, 0, 9) <= 2);
+  CHECK(worst([](double x) { return portable::atan2(x, -0.3); }, [](double x) { return std::atan2(x, -0.3); }, -2, 2) <=
+        2);
+  CHECK(worst(
+            portable::floor, [](double x) { return std::floor(x); }, -1e3, 1e3) == 0);
+}
+
+TEST_CASE("portable functions have these very bits, on every platform") {
+  // A digest over many arguments. A change here means that meshes differ between builds.
+  std::uint64_t digest = 1469598103934665603u;
+  const auto add = [&](double value) { digest = (digest ^ std::bit_cast<std::uint64_t>(value)) * 1099511628211u; };
+  for (int i = -400; i <= 400; ++i) {
+    const double x = i * 0.01 + 0.001;
+    for (const auto f : {portable::exp, portable::sin, portable::cos, portable::tan, portable::atan, portable::tanh,
+                         portable::expm1, portable::floor}) {
+      add(f(x));
+    }
+    add(portable::log(std::fabs(x)));
+    add(portable::asin(x / 5));
+    add(portable::acos(x / 5));
+    add(portable::pow(std::fabs(x), 2.3));
+    add(portable::atan2(x, 1.5 - x));
+  }
+  CHECK(digest == 0xd14e02828a301dbfu);
+}
+
+TEST_CASE("portable functions treat the ends of their domains as IEEE 754 wants") {
+  const double infinity = std::numeric_limits<double>::infinity();
+  CHECK(portable::exp(-infinity) == 0.0);
+  CHECK(portable::exp(1e4) == infinity);
+  CHECK(portable::log(0.0) == -infinity);
+  CHECK(std::isnan(portable::log(-1.0)));
+  CHECK(std::isnan(portable::asin(1.5)));
+  CHECK(portable::pow(0.0, 0.0) == 1.0);
+  CHECK(portable::atan2(0.0, 0.0) == 0.0);
+  CHECK(portable::floor(-0.5) == -1.0);
+}
