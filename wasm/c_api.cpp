@@ -316,9 +316,16 @@ pm_status pm_cell_shapes(pm_session* session, const double* points, uint32_t poi
     const auto corners = as_cells<dim>(cells, cell_count);
     if (Status fits = check_cells<dim>(corners, point_count); !fits.ok()) return fits;
     const auto all = as_points<dim>(points, point_count);
+    Mesh<dim> mesh;  // points and cells are all that shapes need
+    mesh.points.assign(all.begin(), all.end());
+    mesh.cells.assign(corners.begin(), corners.end());
+    std::vector<CellId> live;
+    for (CellId c = 0; c < mesh.cell_count(); ++c)
+      if (mesh.alive(c)) live.push_back(c);
+    std::vector<double> shapes(live.size());
+    cell_shapes<dim>(mesh, *p.field, live, shapes, {});
     session->doubles.assign(cell_count, std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t c = 0; c < corners.size(); ++c)
-      if (corners[c][0] != kNone) session->doubles[c] = cell_shape(*p.field, all, corners[c]);
+    for (std::size_t i = 0; i < live.size(); ++i) session->doubles[live[i]] = shapes[i];
     return {};
   });
 }

@@ -17,7 +17,10 @@ export interface Calls {
   /** Shape of each cell and length of each edge of any mesh, in the metric. */
   measure: { args: { points: Float64Array; cells: Int32Array; lengths: boolean }; result: Measures };
   tensors: { args: { points: Float64Array }; result: Float64Array };
-  /** The mesh as a file: as it is now or, given a number of events, as it was after so many of them or the next few. */
+  /**
+   * The mesh as a file, or for a name that ends in .json the report: as it is now or, given a number of events, as it
+   * was after so many of them or the next few.
+   */
   write: { args: { name: string; events?: number }; result: Uint8Array };
   report: { args: Record<never, never>; result: string };
 }

@@ -192,7 +192,9 @@ export class Server {
 
   /** An earlier mesh is made again from the recipe: runs are deterministic. */
   private write(core: Core, name: string, events?: number): Uint8Array {
-    if (events === undefined) return this.opened().write(name);
+    const content = (session: Session): Uint8Array =>
+      name.endsWith('.json') ? new TextEncoder().encode(session.report()) : session.write(name);
+    if (events === undefined) return content(this.opened());
     this.opened();
     const again = this.make(core, this.recipe!);
     try {
@@ -202,7 +204,7 @@ export class Server {
         const { ints, doubles } = again.takeEvents();
         count += decodeEvents(again.dimension(), ints, doubles).length;
       }
-      return again.write(name);
+      return content(again);
     } finally {
       again.destroy();
     }

@@ -221,7 +221,7 @@ export class Viewport {
     this.camera.updateProjectionMatrix();
     this.renderer.setSize(width, height);
     this.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.requestRender();
+    this.draw(performance.now()); // at once: resizing has emptied the canvas
   }
 
   private setPixelRatio(ratio: number): void {
@@ -237,6 +237,7 @@ export class Viewport {
   }
 
   private draw(now: number): void {
+    cancelAnimationFrame(this.frame);
     this.frame = 0;
     if (this.animation) {
       const { start, duration } = this.animation;

@@ -1,0 +1,23 @@
+// Keys of the page. They stay out of the way of text fields and of controls that use the same keys.
+export type KeyActions = Record<string, () => void>;
+
+function usesKey(target: EventTarget | null, key: string): boolean {
+  if (!(target instanceof HTMLElement)) return false;
+  if (target.closest('dialog')) return true;
+  if (target instanceof HTMLTextAreaElement || target.isContentEditable) return true;
+  if (target instanceof HTMLInputElement && target.type === 'range') return false;
+  if (target instanceof HTMLInputElement || target instanceof HTMLSelectElement) return true;
+  return key === ' ' && target.closest('button, summary, a') !== null;
+}
+
+/** Names: KeyboardEvent.key, letters in lower case, "Shift+" before arrows. */
+export function listenToKeys(actions: KeyActions): void {
+  document.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || usesKey(event.target, event.key)) return;
+    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    const action = actions[event.shiftKey && event.key.startsWith('Arrow') ? `Shift+${key}` : key];
+    if (!action) return;
+    event.preventDefault();
+    action();
+  });
+}

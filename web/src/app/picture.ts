@@ -1,0 +1,155 @@
+// The picture and what belongs to it: loaded when needed, survives a browser without WebGL.
+import { cellWord } from '../replay/caption.ts';
+import type { Player, Shown } from '../replay/player.ts';
+import type { ReplayMesh } from '../replay/replay_mesh.ts';
+import { sceneAfter } from '../replay/scene.ts';
+import type { CameraPose, Colouring, Mark } from '../state/settings.ts';
+import { h } from '../ui/dom.ts';
+import { sampleEllipses } from '../viewport/ellipse_samples.ts';
+import { colourMaps, readPalette } from '../viewport/palette.ts';
+import type { Viewport } from '../viewport/viewport.ts';
+import { currentTheme } from './theme.ts';
+
+export interface Look {
+  colouring: Colouring;
+  marks: Record<Mark, boolean>;
+}
+
+export class Picture {
+  readonly host = h('div', { class: 'picture', role: 'img', 'aria-label': 'The mesh', 'aria-describedby': 'caption' });
+  /** Called when the visitor has moved the camera. */
+  onPose: () => void = () => undefined;
+  /** Called with a sentence when drawing is impossible or comes back (null). */
+  onProblem: (sentence: string | null) => void = () => undefined;
+
+  private viewport: Viewport | null = null;
+  private look: Look = { colouring: 'plain', marks: { tags: true, layer: true, hull: true, buffer: true, ellipses: true } };
+  private shapes = new Float64Array(0);
+  private readonly player: Player;
+
+  constructor(player: Player) {
+    this.player = player;
+  }
+
+  /** Loads the drawing code; afterwards the mesh is shown, if the browser can. */
+  async load(): Promise<void> {
+    try {
+      const { Viewport } = await import('../viewport/viewport.ts');
+      this.viewport = new Viewport(this.host);
+    } catch (error) {
+      const missing = !document.createElement('canvas').getContext('webgl2');
+      this.onProblem(
+        missing
+          ? 'This browser gives no WebGL 2, so the mesh cannot be drawn. Numbers, run and export work all the same.'
+          : `The mesh cannot be drawn: ${(error as Error).message}`,
+      );
+      return;
+    }
+    this.viewport.onPose = () => this.onPose();
+    this.viewport.onContext = (lost) =>
+      this.onProblem(lost ? 'The graphics driver has dropped the picture; it comes back when it can.' : null);
+    this.retheme();
+    this.showAll(true);
+  }
+
+  get available(): boolean {
+    return this.viewport !== null;
+  }
+
+  /** The whole mesh anew, e.g. after another one was opened. */
+  showAll(fit: boolean): void {
+    const { mesh } = this.player;
+    mesh.takeDirtyCells();
+    this.shapes = new Float64Array(0);
+    this.host.setAttribute('aria-label', `A mesh of ${mesh.liveCellCount()} ${cellWord(mesh.dim, 2)}`);
+    this.viewport?.setMesh(mesh, fit);
+    this.applyLook();
+  }
+
+  /** The change that the player has just made. */
+  show({ from, to, animate }: Shown): void {
+    const { mesh, events } = this.player;
+    const changed = mesh.takeDirtyCells();
+    const single = Math.abs(to - from) === 1;
+    const delta = single && to > from ? events[to - 1].delta : null;
+    let origins: ((vertex: number) => ArrayLike<number> | undefined) | undefined;
+    if (delta && animate > 0) {
+      const known = new Map<number, ArrayLike<number>>();
+      delta.vertices.forEach((v, i) => {
+        if (v >= delta.verticesBefore) known.set(v, delta.oldPoints.subarray(i * mesh.dim, (i + 1) * mesh.dim));
+      });
+      origins = (vertex) => known.get(vertex);
+    }
+    this.viewport?.showMesh(mesh, changed, single ? animate : 0, origins);
+    this.paint();
+  }
+
+  setLook(look: Look): void {
+    this.look = { colouring: look.colouring, marks: { ...look.marks } };
+    this.applyLook();
+  }
+
+  /** Shapes of the cells, measured a moment ago; colours of cells made since are left out. */
+  setShapes(shapes: Float64Array<ArrayBuffer>): void {
+    this.shapes = shapes;
+    if (this.look.colouring === 'shape') this.paint();
+  }
+
+  /** Samples and draws the metric ellipses of the mesh as it is shown. */
+  async refreshEllipses(tensors: (points: Float64Array) => Promise<Float64Array>): Promise<void> {
+    const { mesh } = this.player;
+    if (!this.viewport || mesh.dim !== 2 || !this.look.marks.ellipses) return;
+    const samples = await sampleEllipses(mesh, tensors);
+    if (mesh === this.player.mesh) this.viewport.setEllipses(samples.centres, samples.tensors);
+  }
+
+  clearEllipses(): void {
+    this.viewport?.setEllipses(new Float64Array(0), new Float64Array(0));
+  }
+
+  retheme(): void {
+    this.viewport?.setPalette(readPalette(this.host));
+    this.applyLook();
+  }
+
+  /** Colours of the legend, or null when cells are plain. */
+  get colours(): Uint8Array<ArrayBuffer> | null {
+    return this.look.colouring === 'plain' ? null : colourMaps[this.look.colouring][currentTheme()];
+  }
+
+  get pose(): CameraPose | null {
+    return this.viewport?.currentPose() ?? null;
+  }
+
+  set pose(pose: CameraPose | null) {
+    if (pose) this.viewport?.setPose(pose);
+    else this.viewport?.fit();
+  }
+
+  fit(): void {
+    this.viewport?.fit();
+  }
+
+  capture(): Promise<Blob> {
+    if (!this.viewport) return Promise.reject(new Error('There is no picture to save: this browser gives no WebGL 2.'));
+    return this.viewport.capture(2);
+  }
+
+  private applyLook(): void {
+    this.viewport?.setMarks(this.look.marks);
+    this.viewport?.setColours(this.colours);
+    this.paint();
+  }
+
+  private paint(): void {
+    const { mesh, events, index } = this.player;
+    this.viewport?.setScene(mesh, sceneAfter(events, index), this.valueOf(mesh));
+  }
+
+  private valueOf(mesh: ReplayMesh): (cell: number) => number {
+    if (this.look.colouring === 'shape') return (cell) => this.shapes[cell] ?? -1;
+    if (this.look.colouring === 'plain') return () => -1;
+    const last = Math.max(1, this.player.current?.iteration ?? 1);
+    return (cell) => mesh.birth[cell] / last;
+  }
+}

@@ -1,0 +1,81 @@
+// The computing side of the page: a worker with a session, made again when it is lost.
+import { Client } from '../../../wasm/client.ts';
+import type { MeshEvent } from '../../../wasm/events.ts';
+import type { CrashError } from '../../../wasm/loader.ts';
+import type { CallName, Calls, RunResult } from '../../../wasm/protocol.ts';
+import type { MeshArrays, MeshSource, MetricSpec } from '../../../wasm/session.ts';
+import coreUrl from '../../../build/wasm/pillowmesh.wasm?url';
+
+export class Workshop {
+  /** Called with the events of the present run. */
+  onEvents: (events: MeshEvent[]) => void = () => undefined;
+  onCrash: (error: CrashError) => void = () => undefined;
+
+  private client = this.connect();
+  private dimension = 2;
+  private run: number | null = null;
+
+  /** A new worker; the mesh must be opened again. */
+  restart(): void {
+    this.run = null;
+    this.client.dispose();
+    this.client = this.connect();
+  }
+
+  call<N extends CallName>(name: N, args: Calls[N]['args'], transfer: Transferable[] = []): Promise<Calls[N]['result']> {
+    return this.client.call(name, args, transfer);
+  }
+
+  async open(source: MeshSource, metric?: MetricSpec): Promise<MeshArrays> {
+    const mesh = await this.call('open', { source, ...(metric ? { metric } : {}) });
+    this.dimension = mesh.dim;
+    this.run = null;
+    return mesh;
+  }
+
+  async setMetric(formula: string): Promise<void> {
+    await this.call('metric', { formula });
+    this.run = null;
+  }
+
+  get running(): boolean {
+    return this.run !== null;
+  }
+
+  /** Runs to the end; null when another run or mesh has taken its place meanwhile. */
+  async adapt(options: Record<string, string>): Promise<RunResult | null> {
+    const id = this.client.nextId;
+    this.run = id;
+    try {
+      const result = await this.call('run', { options });
+      return this.run === id ? result : null;
+    } finally {
+      if (this.run === id) this.run = null;
+    }
+  }
+
+  /** Ends the present run; what was recorded stays. */
+  async stop(): Promise<void> {
+    await this.call('cancel', {});
+  }
+
+  /** Ends the present run and drops what it still sends. */
+  async abandon(): Promise<void> {
+    if (this.run === null) return;
+    this.run = null;
+    await this.call('cancel', {});
+  }
+
+  private connect(): Client {
+    const worker = new Worker(new URL('../../../wasm/worker.ts', import.meta.url), { type: 'module' });
+    const client = new Client(worker, new URL(coreUrl, location.href).href, () => this.dimension);
+    client.onEvents = (events, run) => {
+      if (run === this.run) this.onEvents(events);
+    };
+    client.onCrash = (error) => {
+      this.run = null;
+      this.onCrash(error);
+    };
+    return client;
+  }
+}

@@ -1,0 +1,98 @@
+// On the picture: which marks are drawn (and what they look like), how cells are coloured, and the legend of that.
+import { colourings, marks, type Colouring, type Mark } from '../state/settings.ts';
+import { h, svg } from '../ui/dom.ts';
+import { icon } from '../ui/icons.ts';
+
+export interface PictureToolActions {
+  toggleMark(mark: Mark): void;
+  setColouring(colouring: Colouring): void;
+  fit(): void;
+}
+
+export interface PictureTools {
+  element: HTMLElement;
+  update(state: { marks: Record<Mark, boolean>; colouring: Colouring; dim: number }): void;
+  /** Colours of the legend and the words at its ends; null: none. */
+  setLegend(legend: { colours: Uint8Array; title: string; low: string; high: string } | null): void;
+}
+
+const markLabels: Record<Mark, [label: string, explanation: string]> = {
+  tags: ['Tags', 'Edges longer than the threshold'],
+  layer: ['Layer', 'Cells of the shrink set'],
+  hull: ['Hull', 'Outline of the shrink set'],
+  buffer: ['Buffer layer', 'Cells that fill the void'],
+  ellipses: ['Metric', 'Ellipses as wide as a unit edge'],
+};
+const colouringLabels: Record<Colouring, string> = { plain: 'Plain', shape: 'Shape η', age: 'Age' };
+
+/** A sample of the mark, drawn as in the picture. */
+function swatch(mark: Mark): SVGSVGElement {
+  const shapes: Record<Mark, SVGElement[]> = {
+    tags: [svg('path', { d: 'M5 12L13 4', class: 'swatch-tag' })],
+    layer: [svg('rect', { x: 2, y: 2, width: 14, height: 12, rx: 2, class: 'swatch-layer' })],
+    hull: [svg('rect', { x: 3, y: 3, width: 12, height: 10, rx: 1, class: 'swatch-hull' })],
+    buffer: [
+      svg('rect', { x: 2, y: 2, width: 14, height: 12, rx: 2, class: 'swatch-buffer' }),
+      svg('path', { d: 'M4 13L14 3M2.5 9L9 2.5M9 13.5L15.5 7', class: 'swatch-hatch' }),
+    ],
+    ellipses: [svg('ellipse', { cx: 9, cy: 8, rx: 6.5, ry: 3.6, transform: 'rotate(-25 9 8)', class: 'swatch-ellipse' })],
+  };
+  return svg('svg', { viewBox: '0 0 18 16', width: 18, height: 16, 'aria-hidden': 'true' }, ...shapes[mark]);
+}
+
+export function makePictureTools(actions: PictureToolActions): PictureTools {
+  const chips = Object.fromEntries(
+    marks.map((mark) => [
+      mark,
+      h(
+        'button',
+        { type: 'button', class: 'chip', title: markLabels[mark][1], onclick: () => actions.toggleMark(mark) },
+        swatch(mark),
+        markLabels[mark][0],
+      ),
+    ]),
+  ) as Record<Mark, HTMLButtonElement>;
+  const radios = Object.fromEntries(
+    colourings.map((c) => [c, h('input', { type: 'radio', name: 'colouring', value: c, onchange: () => actions.setColouring(c) })]),
+  ) as Record<Colouring, HTMLInputElement>;
+  const bar = h('span', { class: 'bar' });
+  const [low, high, title] = [h('span'), h('span'), h('span', { class: 'title' })];
+  const legend = h('div', { class: 'legend', hidden: true }, title, h('span', { class: 'scale' }, low, bar, high));
+  const element = h(
+    'div',
+    { class: 'picture-tools' },
+    h('div', { class: 'chips', role: 'group', 'aria-label': 'Drawn on the mesh' }, ...marks.map((mark) => chips[mark])),
+    h(
+      'div',
+      { class: 'colouring' },
+      h(
+        'fieldset',
+        { class: 'segments' },
+        h('legend', { class: 'unseen' }, 'Colour of cells'),
+        ...colourings.map((c) => h('label', {}, radios[c], h('span', {}, colouringLabels[c]))),
+      ),
+      h('button', { type: 'button', class: 'round', 'aria-label': 'Show the whole mesh', title: 'Show the whole mesh (F)', onclick: actions.fit }, icon('fit')),
+    ),
+    legend,
+  );
+  return {
+    element,
+    update(state) {
+      for (const mark of marks) chips[mark].setAttribute('aria-pressed', String(state.marks[mark]));
+      chips.ellipses.hidden = state.dim === 3;
+      radios[state.colouring].checked = true;
+    },
+    setLegend(next) {
+      legend.hidden = !next;
+      if (!next) return;
+      const stops = Array.from({ length: 17 }, (_, i) => {
+        const at = 4 * Math.min(255, i * 16);
+        return `rgb(${next.colours[at]} ${next.colours[at + 1]} ${next.colours[at + 2]})`;
+      });
+      bar.style.background = `linear-gradient(to right, ${stops.join(', ')})`;
+      title.textContent = next.title;
+      low.textContent = next.low;
+      high.textContent = next.high;
+    },
+  };
+}

@@ -1,0 +1,123 @@
+// Play, step, scrub, pace; and the caption that says in words what is shown.
+import { eventKinds, type EventKind, type MeshEvent } from '../../../wasm/events.ts';
+import { paces, type Pace } from '../state/settings.ts';
+import { h } from '../ui/dom.ts';
+import { icon, type IconName } from '../ui/icons.ts';
+
+export interface TransportActions {
+  toggle(): void;
+  step(direction: 1 | -1): void;
+  stepIteration(direction: 1 | -1): void;
+  seek(index: number): void;
+  setPace(pace: Pace): void;
+}
+
+export interface TransportState {
+  events: readonly MeshEvent[];
+  index: number;
+  playing: boolean;
+  /** The run goes on and more events will come. */
+  running: boolean;
+  pace: Pace;
+  caption: string;
+  kind: EventKind | null;
+}
+
+export interface Transport {
+  caption: HTMLElement;
+  element: HTMLElement;
+  update(state: TransportState): void;
+}
+
+const paceLabels: Record<Pace, string> = { auto: 'Auto', '0.5': '½×', '1': '1×', '2': '2×', '4': '4×', '16': '16×', '64': '64×' };
+const kindLabels: Record<EventKind, string> = {
+  tags: 'Tags',
+  layer: 'Layer',
+  shrink: 'Shrink',
+  connect: 'Connect',
+  dice: 'Dice',
+  relocation: 'Smooth',
+  iteration: 'Iteration',
+};
+
+export function makeTransport(actions: TransportActions): Transport {
+  const button = (name: IconName, label: string, keys: string, action: () => void): HTMLButtonElement =>
+    h('button', { class: 'round', type: 'button', 'aria-label': label, title: `${label} (${keys})`, onclick: action }, icon(name));
+  const play = h('button', { class: 'round play', type: 'button', onclick: actions.toggle });
+  const stepBack = button('back', 'Step back', '←', () => actions.step(-1));
+  const stepForward = button('forward', 'Step forward', '→', () => actions.step(1));
+  const first = button('start', 'Previous iteration', 'Shift ←', () => actions.stepIteration(-1));
+  const last = button('end', 'Next iteration', 'Shift →', () => actions.stepIteration(1));
+  const slider = h('input', {
+    type: 'range',
+    min: 0,
+    max: 0,
+    step: 1,
+    value: 0,
+    'aria-label': 'Event shown',
+    oninput: () => actions.seek(Number(slider.value)),
+  });
+  const track = h('canvas', { class: 'track', 'aria-hidden': 'true' });
+  const counter = h('output', { class: 'counter' });
+  const pace = h(
+    'select',
+    { 'aria-label': 'Pace', title: 'Pace (+ and −)', onchange: () => actions.setPace(pace.value as Pace) },
+    ...paces.map((p) => h('option', { value: p }, paceLabels[p])),
+  );
+  const element = h(
+    'div',
+    { class: 'transport', role: 'group', 'aria-label': 'Playback' },
+    h('div', { class: 'buttons' }, first, stepBack, play, stepForward, last),
+    h('div', { class: 'timeline' }, track, slider),
+    h('div', { class: 'side' }, counter, pace),
+  );
+  const badge = h('span', { class: 'badge' });
+  const text = h('span', { class: 'text' });
+  const caption = h('p', { class: 'caption', id: 'caption', 'aria-live': 'polite', 'aria-atomic': 'true' }, badge, text);
+
+  let drawn = { count: -1, width: 0, theme: '' };
+  /** One thin column per event, coloured by kind; ends of iterations as taller marks. */
+  function drawTrack(events: readonly MeshEvent[]): void {
+    const width = Math.round(track.clientWidth * devicePixelRatio);
+    const height = Math.round(track.clientHeight * devicePixelRatio);
+    const theme = getComputedStyle(track).getPropertyValue('--ink');
+    if (!width || (drawn.count === events.length && drawn.width === width && drawn.theme === theme)) return;
+    drawn = { count: events.length, width, theme };
+    track.width = width;
+    track.height = height;
+    const context = track.getContext('2d');
+    if (!context) return;
+    const style = getComputedStyle(track);
+    const colours = Object.fromEntries(eventKinds.map((k) => [k, style.getPropertyValue(`--event-${k}`)]));
+    const column = width / Math.max(1, events.length);
+    events.forEach(({ kind }, i) => {
+      context.fillStyle = colours[kind];
+      const tall = kind === 'iteration' || kind === 'tags';
+      context.fillRect(i * column, tall ? 0 : height * 0.3, Math.max(column, tall ? devicePixelRatio : 0), tall ? height : height * 0.4);
+    });
+  }
+
+  return {
+    caption,
+    element,
+    update({ events, index, playing, running, pace: chosen, caption: words, kind }) {
+      play.replaceChildren(icon(playing ? 'pause' : 'play'));
+      play.setAttribute('aria-label', playing ? 'Pause' : 'Play');
+      play.title = playing ? 'Pause (space)' : 'Play (space)';
+      stepBack.disabled = first.disabled = index === 0;
+      stepForward.disabled = last.disabled = index === events.length && (events.length > 0 || running);
+      slider.max = String(events.length);
+      slider.value = String(index);
+      slider.disabled = events.length === 0;
+      slider.setAttribute('aria-valuetext', `${index} of ${events.length}: ${words}`);
+      counter.textContent = events.length ? `${index} / ${events.length}${running ? '…' : ''}` : '';
+      pace.value = chosen;
+      badge.textContent = kind ? kindLabels[kind] : 'Start';
+      badge.dataset.kind = kind ?? 'start';
+      // A screen reader cannot follow a film: captions are spoken when it stands still.
+      caption.setAttribute('aria-live', playing ? 'off' : 'polite');
+      if (text.textContent !== words) text.textContent = words;
+      drawTrack(events);
+    },
+  };
+}
