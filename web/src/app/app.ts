@@ -75,7 +75,7 @@ export class App {
   );
   private readonly measures = new Refresher(() => this.measure());
   private readonly ellipses = new Refresher(() =>
-    this.picture.refreshEllipses((points) => this.workshop.call('tensors', { points })),
+    this.picture.refreshEllipses(this.initial, (points) => this.workshop.call('tensors', { points })),
   );
   private pictureLoaded: Promise<void> = Promise.resolve();
   private readonly rewriteLink = debounce(250, () => this.writeLink());
@@ -100,7 +100,7 @@ export class App {
         h(
           'section',
           { class: 'view', 'aria-label': 'Picture' },
-          h('div', { class: 'frame' }, this.picture.host, this.tools.element, this.start_, problem),
+          h('div', { class: 'frame' }, this.tools.element, this.picture.host, this.tools.legend, this.start_, problem),
           this.transport.caption,
           this.transport.element,
         ),
@@ -110,7 +110,7 @@ export class App {
       this.help,
     );
     this.listen();
-    this.pictureLoaded = this.picture.load();
+    this.pictureLoaded = this.picture.load().then(() => this.ellipses.request(0));
     void this.begin();
   }
 
@@ -122,7 +122,6 @@ export class App {
     player.onShow = (shown) => {
       this.picture.show(shown);
       this.measures.request(player.playing ? 200 : 20);
-      this.ellipses.request(player.playing ? 500 : 120);
       this.refresh();
     };
     let last = 0;
@@ -200,6 +199,7 @@ export class App {
   private async applySettings(): Promise<void> {
     const { mesh, formula, event, pace } = this.settings;
     this.player.pace = pace;
+    this.picture.setLook(this.settings);
     if (mesh.kind === 'file' && !this.file) {
       this.messages.show({
         kind: 'error',
@@ -386,7 +386,6 @@ export class App {
 
   private toggleMark(mark: Mark): void {
     this.change({ marks: { ...this.settings.marks, [mark]: !this.settings.marks[mark] } });
-    if (mark === 'ellipses') this.ellipses.request(0);
   }
 
   private async measure(): Promise<void> {
@@ -410,16 +409,16 @@ export class App {
       pace: settings.pace,
       caption: this.initial === nothing ? 'Loading' : captionOf(event, player.mesh, settings.options.threshold, player.events.length),
       kind: event?.kind ?? null,
+      iteration: player.iterations,
     });
     this.setup.update({ mesh: settings.mesh, options: settings.options, running: this.workshop.running, summary: this.summary() });
     this.tools.update({ marks: settings.marks, colouring: settings.colouring, dim: player.mesh.dim });
-    this.picture.setLook(settings);
     const { colours } = this.picture;
     this.tools.setLegend(
       colours &&
         (settings.colouring === 'shape'
           ? { colours, title: 'Shape η', low: '0 flat', high: '1 unit' }
-          : { colours, title: 'Made in iteration', low: 'initial', high: String(Math.max(1, event?.iteration ?? 1)) }),
+          : { colours, title: 'Made in iteration', low: 'initial', high: String(player.iterations) }),
     );
     this.start_.hidden = this.hasRun || this.initial === nothing;
     this.indicators.setIrregular(player.atEnd && player.complete ? this.irregular : null);

@@ -1,7 +1,8 @@
 // The picture and what belongs to it: loaded when needed, survives a browser without WebGL.
+import type { MeshArrays } from '../../../wasm/session.ts';
 import { cellWord } from '../replay/caption.ts';
 import type { Player, Shown } from '../replay/player.ts';
-import type { ReplayMesh } from '../replay/replay_mesh.ts';
+import { ReplayMesh } from '../replay/replay_mesh.ts';
 import { sceneAfter } from '../replay/scene.ts';
 import type { CameraPose, Colouring, Mark } from '../state/settings.ts';
 import { h } from '../ui/dom.ts';
@@ -95,11 +96,11 @@ export class Picture {
     if (this.look.colouring === 'shape') this.paint();
   }
 
-  /** Samples and draws the metric ellipses of the mesh as it is shown. */
-  async refreshEllipses(tensors: (points: Float64Array) => Promise<Float64Array>): Promise<void> {
+  /** Samples and draws the metric ellipses over an initial mesh. */
+  async refreshEllipses(initial: MeshArrays, tensors: (points: Float64Array) => Promise<Float64Array>): Promise<void> {
     const { mesh } = this.player;
-    if (!this.viewport || mesh.dim !== 2 || !this.look.marks.ellipses) return;
-    const samples = await sampleEllipses(mesh, tensors);
+    if (!this.viewport || initial.dim !== 2) return;
+    const samples = await sampleEllipses(new ReplayMesh(initial), tensors);
     if (mesh === this.player.mesh) this.viewport.setEllipses(samples.centres, samples.tensors);
   }
 
@@ -143,13 +144,14 @@ export class Picture {
 
   private paint(): void {
     const { mesh, events, index } = this.player;
+    this.viewport?.setEllipseStrength(index > 0 ? 0.42 : 1);
     this.viewport?.setScene(mesh, sceneAfter(events, index), this.valueOf(mesh));
   }
 
   private valueOf(mesh: ReplayMesh): (cell: number) => number {
     if (this.look.colouring === 'shape') return (cell) => this.shapes[cell] ?? -1;
     if (this.look.colouring === 'plain') return () => -1;
-    const last = Math.max(1, this.player.current?.iteration ?? 1);
+    const last = this.player.iterations;
     return (cell) => mesh.birth[cell] / last;
   }
 }

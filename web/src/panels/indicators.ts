@@ -41,6 +41,7 @@ function makeTable(caption: string): { element: HTMLElement; fill(ours: Row | nu
         h('tr', { class: kind }, h('th', { scope: 'row' }, label), ...cells(values));
       body.replaceChildren(
         ...(ours ? [row('Shown mesh', ours, 'ours')] : []),
+        ...(paper.length ? [h('tr', { class: 'group' }, h('th', { scope: 'rowgroup', colspan: columns.length + 1 }, 'Published in the paper'))] : []),
         ...paper.map(([label, values]) => row(label, values, 'paper')),
       );
     },

@@ -11,6 +11,8 @@ export interface PictureToolActions {
 
 export interface PictureTools {
   element: HTMLElement;
+  /** Laid over the picture. */
+  legend: HTMLElement;
   update(state: { marks: Record<Mark, boolean>; colouring: Colouring; dim: number }): void;
   /** Colours of the legend and the words at its ends; null: none. */
   setLegend(legend: { colours: Uint8Array; title: string; low: string; high: string } | null): void;
@@ -73,10 +75,10 @@ export function makePictureTools(actions: PictureToolActions): PictureTools {
       ),
       h('button', { type: 'button', class: 'round', 'aria-label': 'Show the whole mesh', title: 'Show the whole mesh (F)', onclick: actions.fit }, icon('fit')),
     ),
-    legend,
   );
   return {
     element,
+    legend,
     update(state) {
       for (const mark of marks) chips[mark].setAttribute('aria-pressed', String(state.marks[mark]));
       chips.ellipses.hidden = state.dim === 3;

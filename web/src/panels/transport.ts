@@ -21,6 +21,7 @@ export interface TransportState {
   pace: Pace;
   caption: string;
   kind: EventKind | null;
+  iteration: number;
 }
 
 export interface Transport {
@@ -76,31 +77,48 @@ export function makeTransport(actions: TransportActions): Transport {
   const caption = h('p', { class: 'caption', id: 'caption', 'aria-live': 'polite', 'aria-atomic': 'true' }, badge, text);
 
   let drawn = { count: -1, width: 0, theme: '' };
-  /** One thin column per event, coloured by kind; ends of iterations as taller marks. */
+  let shown: readonly MeshEvent[] = [];
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  /** Events arrive in a stream: the strip keeps up a few times a second. */
+  function requestTrack(events: readonly MeshEvent[]): void {
+    shown = events;
+    timer ??= setTimeout(() => {
+      timer = undefined;
+      drawTrack(shown);
+    }, 120);
+  }
+  /** One thin column per event, coloured by kind; tags and ends of iterations as taller marks. */
   function drawTrack(events: readonly MeshEvent[]): void {
     const width = Math.round(track.clientWidth * devicePixelRatio);
     const height = Math.round(track.clientHeight * devicePixelRatio);
-    const theme = getComputedStyle(track).getPropertyValue('--ink');
+    const style = getComputedStyle(track);
+    const theme = style.getPropertyValue('--ink');
     if (!width || (drawn.count === events.length && drawn.width === width && drawn.theme === theme)) return;
     drawn = { count: events.length, width, theme };
     track.width = width;
     track.height = height;
     const context = track.getContext('2d');
-    if (!context) return;
-    const style = getComputedStyle(track);
+    if (!context || events.length === 0) return;
     const colours = Object.fromEntries(eventKinds.map((k) => [k, style.getPropertyValue(`--event-${k}`)]));
-    const column = width / Math.max(1, events.length);
-    events.forEach(({ kind }, i) => {
+    // Where several events share a column of pixels, the last one is drawn.
+    const columns = new Map<number, EventKind>();
+    events.forEach(({ kind }, i) => columns.set(Math.floor((i * width) / events.length), kind));
+    const column = Math.max(1, Math.ceil(width / events.length));
+    const tall = events.flatMap(({ kind }, i) => (kind === 'iteration' || kind === 'tags' ? [[i, kind] as const] : []));
+    for (const [x, kind] of columns) {
       context.fillStyle = colours[kind];
-      const tall = kind === 'iteration' || kind === 'tags';
-      context.fillRect(i * column, tall ? 0 : height * 0.3, Math.max(column, tall ? devicePixelRatio : 0), tall ? height : height * 0.4);
-    });
+      context.fillRect(x, height * 0.3, column, height * 0.4);
+    }
+    for (const [i, kind] of tall) {
+      context.fillStyle = colours[kind];
+      context.fillRect(Math.floor((i * width) / events.length), 0, Math.max(column, devicePixelRatio), height);
+    }
   }
 
   return {
     caption,
     element,
-    update({ events, index, playing, running, pace: chosen, caption: words, kind }) {
+    update({ events, index, playing, running, pace: chosen, caption: words, kind, iteration }) {
       play.replaceChildren(icon(playing ? 'pause' : 'play'));
       play.setAttribute('aria-label', playing ? 'Pause' : 'Play');
       play.title = playing ? 'Pause (space)' : 'Play (space)';
@@ -111,13 +129,14 @@ export function makeTransport(actions: TransportActions): Transport {
       slider.disabled = events.length === 0;
       slider.setAttribute('aria-valuetext', `${index} of ${events.length}: ${words}`);
       counter.textContent = events.length ? `${index} / ${events.length}${running ? '…' : ''}` : '';
+      counter.title = `Event ${index}, iteration ${iteration}`;
       pace.value = chosen;
       badge.textContent = kind ? kindLabels[kind] : 'Start';
       badge.dataset.kind = kind ?? 'start';
       // A screen reader cannot follow a film: captions are spoken when it stands still.
       caption.setAttribute('aria-live', playing ? 'off' : 'polite');
       if (text.textContent !== words) text.textContent = words;
-      drawTrack(events);
+      requestTrack(events);
     },
   };
 }

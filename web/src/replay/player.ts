@@ -77,6 +77,12 @@ export class Player {
     return this.events[this.index - 1];
   }
 
+  /** Iterations begun, at least 1. */
+  get iterations(): number {
+    const { current } = this;
+    return Math.max(1, (current?.iteration ?? 0) + (current?.kind === 'iteration' || current?.kind === 'relocation' ? 0 : 1));
+  }
+
   get atEnd(): boolean {
     return this.index === this.events.length;
   }

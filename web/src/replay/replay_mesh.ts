@@ -18,7 +18,7 @@ export class ReplayMesh {
   points: Float64Array;
   /** At least cellCount * cornerCount vertices, in corner-bit order; -1 throughout for a dead cell. */
   cells: Int32Array;
-  /** The iteration in which each cell was made; 0 for the initial ones. */
+  /** The iteration in which each cell was made, from 1; 0 for the initial ones. */
   birth: Int32Array;
   private movedVertices: Uint8Array;
   private changedCells: Uint8Array;
@@ -45,11 +45,12 @@ export class ReplayMesh {
     return count;
   }
 
+  /** `iteration`: how many iterations are over. */
   apply(delta: MeshDelta, iteration: number): void {
     this.resize(delta.verticesAfter, delta.cellsAfter);
     this.write(delta, delta.newPoints, delta.newCorners);
     for (let i = 0; i < delta.cells.length; ++i)
-      if (delta.oldCorners[i * this.cornerCount] < 0) this.birth[delta.cells[i]] = iteration;
+      if (delta.oldCorners[i * this.cornerCount] < 0) this.birth[delta.cells[i]] = iteration + 1;
   }
 
   revert(delta: MeshDelta): void {

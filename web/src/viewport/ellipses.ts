@@ -15,7 +15,7 @@ export class Ellipses {
         depthTest: false,
         depthWrite: false,
         side: 2,
-        uniforms: { colour: { value: new Color() }, width: { value: 1 } },
+        uniforms: { colour: { value: new Color() }, width: { value: 1 }, strength: { value: 1 } },
       }),
     );
     this.object.frustumCulled = false;
@@ -25,6 +25,11 @@ export class Ellipses {
 
   setColour(colour: string): void {
     this.object.material.uniforms.colour.value.set(colour);
+  }
+
+  /** 1: the subject of the picture; less: behind it. */
+  setStrength(strength: number): void {
+    this.object.material.uniforms.strength.value = strength;
   }
 
   setLineWidth(pixels: number): void {

@@ -79,19 +79,19 @@ const shape: Record<'light' | 'dark', readonly Anchor[]> = {
   ],
 };
 
-/** Iteration that made the cell, first to last. */
+/** Iteration that made the cell, first to last: a hue that neither tags, layer, hull nor buffer layer have. */
 const age: Record<'light' | 'dark', readonly Anchor[]> = {
   light: [
-    [0.96, 0.015, 230],
-    [0.78, 0.08, 225],
-    [0.52, 0.12, 245],
-    [0.36, 0.11, 265],
+    [0.975, 0.008, 350],
+    [0.89, 0.045, 350],
+    [0.77, 0.095, 352],
+    [0.6, 0.14, 355],
   ],
   dark: [
-    [0.26, 0.03, 260],
-    [0.42, 0.09, 250],
-    [0.66, 0.12, 225],
-    [0.9, 0.08, 195],
+    [0.25, 0.012, 300],
+    [0.36, 0.06, 345],
+    [0.52, 0.12, 350],
+    [0.74, 0.13, 355],
   ],
 };
 

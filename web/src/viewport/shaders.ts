@@ -133,6 +133,7 @@ export const ellipseFragmentShader = /* glsl */ `
   in vec2 disk;
   uniform vec3 colour;
   uniform float width;
+  uniform float strength;
 
   void main() {
     float radius = length(disk);
@@ -141,7 +142,7 @@ export const ellipseFragmentShader = /* glsl */ `
     float rim = 1.0 - smoothstep(0.5 * width - 0.5, 0.5 * width + 0.5, abs(inside - 0.5 * width));
     float fill = smoothstep(-0.5, 0.5, inside);
     float size = 1.0 / slope;
-    float alpha = max(0.85 * rim, 0.13 * fill) * mix(0.5, 1.0, smoothstep(2.0, 8.0, size));
+    float alpha = max(0.85 * rim, 0.13 * fill) * mix(0.5, 1.0, smoothstep(2.0, 8.0, size)) * strength;
     if (alpha < 0.004) discard;
     gl_FragColor = vec4(colour, alpha);
     ${output}

@@ -135,6 +135,12 @@ export class Viewport {
     this.requestRender();
   }
 
+  /** Ellipses are the subject before the run and stay behind the mesh during it. */
+  setEllipseStrength(strength: number): void {
+    this.ellipses.setStrength(strength);
+    this.requestRender();
+  }
+
   /** Centres and metric tensors of 2D ellipses. */
   setEllipses(centres: Float64Array, tensors: Float64Array): void {
     this.ellipses.set(centres, tensors);
