@@ -105,6 +105,22 @@ struct Groups {
   }
 };
 
+/// Sorts the groups. \return the new index of each.
+std::vector<Index> sort_and_map(std::vector<Group>& groups) {
+  std::vector<Index> order(groups.size()), renumbered(groups.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(i);
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
+    return groups[a].tag != groups[b].tag ? groups[a].tag < groups[b].tag : groups[a].name < groups[b].name;
+  });
+  std::vector<Group> sorted;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    renumbered[order[i]] = static_cast<Index>(i);
+    sorted.push_back(groups[order[i]]);
+  }
+  groups = std::move(sorted);
+  return renumbered;
+}
+
 template <class T>
 void release(std::vector<T>& v) {
   std::vector<T>().swap(v);
@@ -207,5 +223,17 @@ std::vector<Index> distinct_tags(const std::vector<Group>& groups) {
   }
   return tags;
 }
+
+template <int Dim>
+void sort_groups(MeshInput<Dim>& mesh) {
+  const std::vector<Index> facet_groups = sort_and_map(mesh.facet_groups);
+  for (auto& facet : mesh.facets) facet.group = facet_groups[facet.group];
+  const std::vector<Index> regions = sort_and_map(mesh.region_groups);
+  if (!regions.empty())
+    for (Index& region : mesh.cell_region) region = regions[region];
+}
+
+template void sort_groups(MeshInput<2>&);
+template void sort_groups(MeshInput<3>&);
 
 }  // namespace pillowmesh

@@ -68,6 +68,10 @@ Expected<AnyMesh> finish(FileMesh file, std::string_view name);
 /// tag where it is free; 0 for the group that has neither tag nor name.
 std::vector<Index> distinct_tags(const std::vector<Group>& groups);
 
+/// Puts the groups in the order of their tags and names, so that a file does not depend on how patches were found.
+template <int Dim>
+void sort_groups(MeshInput<Dim>& mesh);
+
 /// The vertices of a cell or facet in the files' order.
 template <std::size_t N>
 std::array<Index, N> file_order(const std::array<Index, N>& corner_bits) {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "pillowmesh/io/file_mesh.h"
 #include "pillowmesh/io/gmsh.h"
 #include "pillowmesh/io/medit.h"
 #include "pillowmesh/io/vtk.h"
@@ -85,7 +86,8 @@ Status check_writable(std::string_view name, const WriteOptions& options) {
 template <int Dim>
 Status write_mesh_to(Sink& sink, const Mesh<Dim>& mesh, std::string_view name, const WriteOptions& options) {
   if (Status s = check_writable(name, options); !s.ok()) return s;
-  const MeshInput<Dim> input = to_input(mesh);
+  MeshInput<Dim> input = to_input(mesh);
+  sort_groups(input);
   switch (format_of(name)) {
     case Format::medit:
       write_medit(input, sink, false);

@@ -44,16 +44,18 @@ Expected<AnyMesh> read_mesh_file(const std::string& path) {
   if (Status s = check_writable(path); !s.ok()) return Status::bad_input(s.message);  // unknown ending
   std::FILE* file = std::fopen(path.c_str(), "rb");
   if (file == nullptr) return Status::bad_input(path + ": cannot be read: " + system_reason());
+  long size = 0;
+  if (std::fseek(file, 0, SEEK_END) == 0) size = std::ftell(file);
+  std::rewind(file);
   std::vector<char> bytes;
-  if (std::fseek(file, 0, SEEK_END) == 0) {
-    const long size = std::ftell(file);
-    if (size > 0) bytes.reserve(static_cast<std::size_t>(size));
-    std::rewind(file);
-  }
   char chunk[1 << 16];
   std::size_t n = 0;
   errno = 0;
-  while ((n = std::fread(chunk, 1, sizeof chunk, file)) > 0) bytes.insert(bytes.end(), chunk, chunk + n);
+  while ((n = std::fread(chunk, 1, sizeof chunk, file)) > 0) {
+    // Not before something has been read: a folder claims to be endless.
+    if (bytes.empty() && size > 0) bytes.reserve(static_cast<std::size_t>(size));
+    bytes.insert(bytes.end(), chunk, chunk + n);
+  }
   const bool failed = std::ferror(file) != 0;
   const std::string reason = failed ? system_reason() : "";
   std::fclose(file);
