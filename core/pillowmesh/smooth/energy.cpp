@@ -28,38 +28,54 @@ void cofactor_derivatives(const Frame<3>& e, const std::array<double, 3>& slope,
 
 template <int Dim>
 void add_corner_derivatives(const Frame<Dim>& e, int sign, const CornerMetric<Dim>& metric,
-                            const std::array<double, Dim>& slope, Derivatives<Dim>& sum) {
+                            const EdgeSlopes<Dim>& slopes, Derivatives<Dim>& sum) {
   const auto c = cofactors(e);
   std::array<Matrix<Dim>, Dim> C;
-  cofactor_derivatives(e, slope, C);
+  cofactor_derivatives(e, slopes.slope, C);
   const double d = sign * c[0].dot(e[0]);
   const Matrix<Dim> W = to_matrix(metric.inverse);
 
+  // f = T + N / d^2 with T = sum e_j' M e_j and N = sum c_j' M^-1 c_j.
   double T = 0.0, N = 0.0, slope2 = 0.0;
   Point<Dim> dT = Point<Dim>::Zero(), dN = Point<Dim>::Zero(), dd = Point<Dim>::Zero();
+  Point<Dim> by_lengths = Point<Dim>::Zero(), dd_by_lengths = Point<Dim>::Zero();
   Matrix<Dim> HN = Matrix<Dim>::Zero();
   for (int j = 0; j < Dim; ++j) {
+    const double slope = slopes.slope[j];
     const Point<Dim> Me = multiply(metric.M, e[j]), Wc = multiply(metric.inverse, c[j]);
-    T += e[j].dot(Me);
-    N += c[j].dot(Wc);
-    slope2 += slope[j] * slope[j];
-    dT += (2.0 * slope[j]) * Me;
-    dd += (slope[j] * sign) * c[j];
+    const double l2 = e[j].dot(Me), n = c[j].dot(Wc);
+    T += l2;
+    N += n;
+    slope2 += slope * slope;
+    dT += (2.0 * slope) * Me;
+    dd += (slope * sign) * c[j];
     const Matrix<Dim> Ct = C[j].transpose();
     dN += 2.0 * (Ct * Wc);
     HN += 2.0 * (Ct * W * C[j]);
+    if (slope == 0.0) continue;
+    // d f / d l_j = 2 (l_j - s_j / l_j^3), and d is proportional to l_j.
+    const double l = std::sqrt(l2);
+    by_lengths += 2.0 * (l - n / (d * d * l)) * slopes.length_gradient[j];
+    dd_by_lengths += d / l * slopes.length_gradient[j];
   }
   const double i2 = 1.0 / (d * d), i3 = i2 / d, i4 = i2 * i2;
-  sum.value += T + N * i2;
-  sum.gradient += dT + i2 * dN - (2.0 * N * i3) * dd;
-  const Matrix<Dim> mixed = dN * dd.transpose();
-  sum.hessian += (2.0 * slope2) * to_matrix(metric.M) + i2 * HN - (2.0 * i3) * (mixed + mixed.transpose()) +
-                 (6.0 * N * i4) * (dd * dd.transpose());
+  const Matrix<Dim> cross_terms = dN * dd.transpose();
+  Matrix<Dim> Hf = (2.0 * slope2) * to_matrix(metric.M) + i2 * HN - (2.0 * i3) * (cross_terms + cross_terms.transpose()) +
+                   (6.0 * N * i4) * (dd * dd.transpose());
+  const Point<Dim> df = dT + i2 * dN - (2.0 * N * i3) * dd + by_lengths;
+  dd += dd_by_lengths;
+
+  // E = r d (q f + w).
+  const double q = 1.0 / (2 * Dim), r = metric.root_determinant, w = q * (T + N * i2) - 1.0 + size_weight;
+  const Matrix<Dim> mixed = dd * df.transpose();
+  sum.value += r * d * w;
+  sum.gradient += r * (w * dd + (d * q) * df);
+  sum.hessian += (r * q) * (d * Hf + mixed + mixed.transpose());
 }
 
-template void add_corner_derivatives<2>(const Frame<2>&, int, const CornerMetric<2>&, const std::array<double, 2>&,
+template void add_corner_derivatives<2>(const Frame<2>&, int, const CornerMetric<2>&, const EdgeSlopes<2>&,
                                         Derivatives<2>&);
-template void add_corner_derivatives<3>(const Frame<3>&, int, const CornerMetric<3>&, const std::array<double, 3>&,
+template void add_corner_derivatives<3>(const Frame<3>&, int, const CornerMetric<3>&, const EdgeSlopes<3>&,
                                         Derivatives<3>&);
 
 }  // namespace pillowmesh

@@ -1,16 +1,20 @@
 // The barrier energy of a corner: how far it is from a unit right-angled corner in the metric.
 //
-// With the edge vectors e_d out of the corner as columns of A and G = A' M A:   f = tr G + tr G^-1.
-// f = 2 Dim for a unit square or cube corner, grows without bound as the corner degenerates. With d = det A and the
-// cofactor vectors c_j of A, tr G^-1 = sum c_j' M^-1 c_j / d^2; c_j and d are affine in the position of any one of the
-// corner's vertices, so that gradient and Hessian are exact and cheap while M is held fixed.
+// With the edge vectors e_d out of the corner as columns of A and G = A' M A:   f = tr G + tr G^-1, which is 2 Dim for a
+// unit square or cube corner and grows without bound as the corner degenerates. With d = det A and the cofactor vectors
+// c_j of A, tr G^-1 = sum c_j' M^-1 c_j / d^2; c_j and d are affine in the position of any one of the corner's vertices,
+// so that gradient and Hessian are exact and cheap while M is held fixed.
 //
 // M is the metric at the corner's vertex. Where it varies along an edge, the edge vector is scaled by the ratio of the
-// edge's length, with the metric taken from both its ends, to its length in M alone: then f = sum l_j^2 + s_j / l_j^2,
-// where the l_j are lengths and the s_j >= 1 depend on the angles only.
+// edge's integrated length to its length in M alone: then f = sum l_j^2 + s_j / l_j^2, where the l_j are the lengths and
+// the s_j >= 1 depend on the angles only.
+//
+// The energy of the corner is E = v (f / (2 Dim) - 1 + size_weight), v = sqrt(det M) d its volume in the metric: weighted
+// by volume, the sum over a mesh is an integral and small cells do not rule it.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "pillowmesh/mesh/jacobian.h"
@@ -37,17 +41,18 @@ inline Matrix<Dim> to_matrix(const SymTensor<Dim>& t) {
   return m;
 }
 
-/// The metric at a vertex in the form that the energy wants: M, and det(M) M^-1 divided by det(M).
+/// The metric at a vertex in the form that the energy wants: M, M^-1 and sqrt(det M).
 template <int Dim>
 struct CornerMetric {
   SymTensor<Dim> M;
   SymTensor<Dim> inverse;
+  double root_determinant;
 };
 
 template <int Dim>
 inline CornerMetric<Dim> corner_metric(const SymTensor<Dim>& M) {
-  CornerMetric<Dim> out{M, {}};
-  const double inv = 1.0 / determinant(M);
+  const double det = determinant(M), inv = 1.0 / det;
+  CornerMetric<Dim> out{M, {}, std::sqrt(det)};
   if constexpr (Dim == 2) {
     out.inverse.m = {M.m[2] * inv, -M.m[1] * inv, M.m[0] * inv};
   } else {
@@ -87,12 +92,9 @@ inline double mean_length(double a, double b) {
   const double r = (a - b) / (a + b), r2 = r * r;
   return 0.5 * (a + b) * (15 - 9 * r2) / (15 - 4 * r2);
 }
-/// d mean_length / d a
-inline double mean_length_slope(double a, double b) {
-  const double sum = a + b, r = (a - b) / sum, r2 = r * r, q = 15 - 4 * r2;
-  // d r / d a = 2 b / sum^2; d((15 - 9 r2) / q) / d r2 = -75 / q^2
-  return 0.5 * (15 - 9 * r2) / q - 150 * r * b / (sum * q * q);
-}
+/// What keeps metric volume from being a free good: without it cells where the mesh is too dense are not spread.
+/// Measured on the paper's cases 1 to 3 (docs/algorithm.md): 0 costs shape, 1 costs size.
+inline constexpr double size_weight = 0.4;
 
 /// The energy of a corner with edge vectors e, whose axes form a frame of the given sign (Cell::corner_sign).
 /// Infinite when the corner is degenerate or inside out.
@@ -106,7 +108,7 @@ inline double corner_energy(const Frame<Dim>& e, int sign, const CornerMetric<Di
     T += dot(metric.M, e[j], e[j]);
     N += dot(metric.inverse, c[j], c[j]);
   }
-  return T + N / (d * d);
+  return metric.root_determinant * d * ((T + N / (d * d)) / (2 * Dim) - 1.0 + size_weight);
 }
 
 /// Sum of value, gradient and Hessian with respect to the position of one vertex.
@@ -117,10 +119,18 @@ struct Derivatives {
   Matrix<Dim> hessian = Matrix<Dim>::Zero();
 };
 
-/// Adds a corner's energy and its derivatives with respect to the position x of a vertex on which edge j depends as
-/// d e_j / d x = slope[j] I, the metric held fixed. \pre the corner is not degenerate.
+/// How a corner's edges depend on the position x of a vertex: d e_j / d x = slope[j] I with the metric held fixed, and
+/// d |e_j|_M / d x = frozen length's gradient + length_gradient[j], what the metric's change along the edge adds.
+template <int Dim>
+struct EdgeSlopes {
+  std::array<double, Dim> slope;
+  std::array<Point<Dim>, Dim> length_gradient;
+};
+
+/// Adds a corner's energy and its derivatives. The Hessian is that of the fixed metric. \pre the corner is not
+/// degenerate.
 template <int Dim>
 void add_corner_derivatives(const Frame<Dim>& e, int sign, const CornerMetric<Dim>& metric,
-                            const std::array<double, Dim>& slope, Derivatives<Dim>& sum);
+                            const EdgeSlopes<Dim>& slopes, Derivatives<Dim>& sum);
 
 }  // namespace pillowmesh

@@ -116,10 +116,19 @@ Relocator<Dim>::Relocator(Mesh<Dim>& mesh, const MetricField<Dim>& field, Reloca
 }
 
 template <int Dim>
-void Relocator<Dim>::collect_terms(VertexId v) {
+int Relocator<Dim>::spoke_to(VertexId w) {
+  for (std::size_t i = 0; i < spokes_.size(); ++i)
+    if (spokes_[i].end == w) return static_cast<int>(i);
+  spokes_.push_back({w, 0, 0, 0});
+  return static_cast<int>(spokes_.size()) - 1;
+}
+
+template <int Dim>
+void Relocator<Dim>::collect(VertexId v) {
   using C = Cell<Dim>;
   vertex_star(mesh_, v, star_);
   terms_.clear();
+  spokes_.clear();
   const auto add = [&](CellId c, int corner, int end) {
     Term t;
     t.origin = mesh_.cells[c][corner];
@@ -128,10 +137,13 @@ void Relocator<Dim>::collect_terms(VertexId v) {
     const Point<Dim>& o = mesh_.points[t.origin];
     for (int d = 0; d < Dim; ++d) {
       t.ends[d] = mesh_.cells[c][corner ^ (1 << d)];
-      if (end < 0 || end == d) continue;
+      t.spoke[d] = -1;
+      if (end < 0) t.spoke[d] = static_cast<std::int8_t>(spoke_to(t.ends[d]));
+      if (end == d) t.spoke[d] = static_cast<std::int8_t>(spoke_to(t.origin));
+      if (t.spoke[d] >= 0) continue;
       const Point<Dim> e = mesh_.points[t.ends[d]] - o;
-      const double here = std::sqrt(dot(metric_[t.origin].M, e, e)), there = std::sqrt(dot(metric_[t.ends[d]].M, e, e));
-      t.ratio[d] = mean_length(here, there) / here;
+      const double a = std::sqrt(dot(metric_[t.origin].M, e, e)), b = std::sqrt(dot(metric_[t.ends[d]].M, e, e));
+      t.ratio[d] = mean_length(a, b) / a;
     }
     terms_.push_back(t);
   };
@@ -141,18 +153,35 @@ void Relocator<Dim>::collect_terms(VertexId v) {
   }
 }
 
+/// The metric at a candidate position and in the middle of the edges there; their lengths go to spokes_.
 template <int Dim>
-void Relocator<Dim>::scaled_frame(const Term& t, VertexId v, const Point<Dim>& position,
-                                  const CornerMetric<Dim>& metric, Frame<Dim>& e, std::array<double, Dim>& ratio) const {
-  const Point<Dim>& o = t.end < 0 ? position : mesh_.points[t.origin];
-  const SymTensor<Dim>& M = t.end < 0 ? metric.M : metric_[t.origin].M;
+void Relocator<Dim>::evaluate(const Point<Dim>& position, Candidate& at) {
+  sample_points_.clear();
+  sample_points_.push_back(position);
+  for (const Spoke& s : spokes_) sample_points_.push_back(0.5 * (position + mesh_.points[s.end]));
+  samples_.resize(sample_points_.size());
+  field_.evaluate(sample_points_, samples_);
+  at.position = position;
+  at.metric = corner_metric(samples_[0]);
+  for (std::size_t i = 0; i < spokes_.size(); ++i) {
+    Spoke& s = spokes_[i];
+    const Point<Dim> e = mesh_.points[s.end] - position;
+    s.here = std::sqrt(dot(at.metric.M, e, e));
+    s.there = std::sqrt(dot(metric_[s.end].M, e, e));
+    const double middle = std::sqrt(dot(samples_[i + 1], e, e));
+    s.length = 0.5 * (mean_length(s.here, middle) + mean_length(middle, s.there));
+  }
+}
+
+template <int Dim>
+void Relocator<Dim>::scaled_frame(const Term& t, VertexId v, const Candidate& at, Frame<Dim>& e,
+                                  std::array<double, Dim>& ratio) const {
+  const Point<Dim>& o = t.end < 0 ? at.position : mesh_.points[t.origin];
   for (int d = 0; d < Dim; ++d) {
-    const bool moves = t.ends[d] == v;
-    e[d] = (moves ? position : mesh_.points[t.ends[d]]) - o;
-    if (t.end < 0 || moves) {
-      const double here = std::sqrt(dot(M, e[d], e[d]));
-      const double there = std::sqrt(dot(moves ? metric.M : metric_[t.ends[d]].M, e[d], e[d]));
-      ratio[d] = mean_length(here, there) / here;
+    e[d] = (t.ends[d] == v ? at.position : mesh_.points[t.ends[d]]) - o;
+    if (t.spoke[d] >= 0) {
+      const Spoke& s = spokes_[t.spoke[d]];
+      ratio[d] = s.length / (t.end < 0 ? s.here : s.there);
     } else {
       ratio[d] = t.ratio[d];
     }
@@ -161,61 +190,40 @@ void Relocator<Dim>::scaled_frame(const Term& t, VertexId v, const Point<Dim>& p
 }
 
 template <int Dim>
-double Relocator<Dim>::energy_at(VertexId v, const Point<Dim>& position, const CornerMetric<Dim>& metric) const {
+double Relocator<Dim>::energy_at(VertexId v, const Candidate& at) const {
   double sum = 0.0;
   Frame<Dim> e;
   std::array<double, Dim> ratio;
   for (const Term& t : terms_) {
-    scaled_frame(t, v, position, metric, e, ratio);
-    sum += corner_energy(e, t.sign, t.end < 0 ? metric : metric_[t.origin]);
+    scaled_frame(t, v, at, e, ratio);
+    sum += corner_energy(e, t.sign, t.end < 0 ? at.metric : metric_[t.origin]);
   }
   return sum;
 }
 
+/// Exact for lengths and angles with the metric held fixed, except that the gradient of a length is that of its integral:
+/// by the first variation it depends on the metric at the moving end alone, d l / d x = -M e / |e|_M.
 template <int Dim>
-Derivatives<Dim> Relocator<Dim>::derivatives_at(VertexId v) const {
+Derivatives<Dim> Relocator<Dim>::derivatives_at(VertexId v, const Candidate& at) const {
   Derivatives<Dim> sum;
   Frame<Dim> e;
-  std::array<double, Dim> ratio, slope;
+  std::array<double, Dim> ratio;
+  EdgeSlopes<Dim> slopes;
   for (const Term& t : terms_) {
-    scaled_frame(t, v, mesh_.points[v], metric_[v], e, ratio);
-    for (int d = 0; d < Dim; ++d) slope[d] = t.end < 0 ? -ratio[d] : (t.end == d ? ratio[d] : 0.0);
-    add_corner_derivatives<Dim>(e, t.sign, metric_[t.origin], slope, sum);
+    scaled_frame(t, v, at, e, ratio);
+    const CornerMetric<Dim>& metric = t.end < 0 ? at.metric : metric_[t.origin];
+    for (int d = 0; d < Dim; ++d) {
+      slopes.slope[d] = t.end < 0 ? -ratio[d] : (t.end == d ? ratio[d] : 0.0);
+      if (t.spoke[d] < 0) continue;
+      const Spoke& s = spokes_[t.spoke[d]];
+      const Point<Dim> out = mesh_.points[s.end] - at.position;
+      const Point<Dim> integrated = -1.0 / s.here * multiply(at.metric.M, out);
+      const Point<Dim> frozen = -ratio[d] / (t.end < 0 ? s.here : s.there) * multiply(metric.M, out);
+      slopes.length_gradient[d] = integrated - frozen;
+    }
+    add_corner_derivatives(e, t.sign, metric, slopes, sum);
   }
   return sum;
-}
-
-/// The share of the gradient that comes from the metric at the vertex changing as it moves, through the lengths of its
-/// edges: d f / d l_j = 2 (l_j - s_j / l_j^3). Differences of M over `reach`, wide enough to see over a kink. The change
-/// of the angles with M is left out.
-template <int Dim>
-void Relocator<Dim>::add_metric_gradient(VertexId v, double reach, Derivatives<Dim>& d) const {
-  std::array<Point<Dim>, 2 * Dim> at;
-  std::array<SymTensor<Dim>, 2 * Dim> M;
-  for (int i = 0; i < Dim; ++i)
-    for (int s = 0; s < 2; ++s) at[2 * i + s] = mesh_.points[v] + (s ? reach : -reach) * Point<Dim>::Unit(i);
-  field_.evaluate(at, M);
-  std::array<SymTensor<Dim>, Dim> slope;
-  for (int i = 0; i < Dim; ++i) slope[i] = (0.5 / reach) * (M[2 * i + 1] + (-1.0) * M[2 * i]);
-
-  Frame<Dim> e;
-  std::array<double, Dim> ratio;
-  for (const Term& t : terms_) {
-    const CornerMetric<Dim>& metric = metric_[t.origin];
-    scaled_frame(t, v, mesh_.points[v], metric_[v], e, ratio);
-    const auto c = cofactors(e);
-    const double det = c[0].dot(e[0]);
-    for (int j = 0; j < Dim; ++j) {
-      if (t.end >= 0 && t.end != j) continue;
-      const double l2 = dot(metric.M, e[j], e[j]), l = std::sqrt(l2);
-      const double weight = 2.0 * (l2 - dot(metric.inverse, c[j], c[j]) / (det * det)) / l;
-      const Point<Dim> edge = e[j] / ratio[j];
-      const VertexId w = t.end < 0 ? t.ends[j] : t.origin;
-      const double a = std::sqrt(dot(metric_[v].M, edge, edge)), b = std::sqrt(dot(metric_[w].M, edge, edge));
-      const double by_a = weight * mean_length_slope(a, b) / (2.0 * a);
-      for (int i = 0; i < Dim; ++i) d.gradient[i] += by_a * dot(slope[i], edge, edge);
-    }
-  }
 }
 
 template <int Dim>
@@ -230,40 +238,37 @@ bool Relocator<Dim>::newton_step(VertexId v, const Derivatives<Dim>& d, Point<Di
 
 template <int Dim>
 double Relocator<Dim>::relocate(VertexId v) {
-  collect_terms(v);
+  collect(v);
+  Candidate now;
+  evaluate(mesh_.points[v], now);
   double shortest2 = std::numeric_limits<double>::infinity();
-  for (const Term& t : terms_) {
-    if (t.end >= 0) continue;
-    for (const VertexId w : t.ends) shortest2 = std::min(shortest2, (mesh_.points[w] - mesh_.points[v]).squaredNorm());
-  }
+  for (const Spoke& s : spokes_) shortest2 = std::min(shortest2, (mesh_.points[s.end] - now.position).squaredNorm());
   const double shortest = std::sqrt(shortest2);
-  Derivatives<Dim> d = derivatives_at(v);
+  const Derivatives<Dim> d = derivatives_at(v, now);
   last_energy_ = d.value;
   last_decrease_ = 0.0;
-  add_metric_gradient(v, 0.02 * shortest, d);
   Point<Dim> step;
   if (!newton_step(v, d, step)) return 0.0;
+  step *= options_.relaxation;
   const double length = std::sqrt(step.squaredNorm());
   if (length > 0.8 * shortest) step *= 0.8 * shortest / length;
 
   const double slope = d.gradient.dot(step);
   if (!(slope < 0)) return 0.0;
   double t = 1.0;
-  for (int attempt = 0; attempt < 5; ++attempt, t *= 0.4) {
-    if (dot(metric_[v].M, step, step) * t * t < 1e-3 * options_.rest * options_.rest) return 0.0;
+  for (int attempt = 0; attempt < 5; ++attempt, t *= 0.45) {
+    if (dot(now.metric.M, step, step) * t * t < 1e-2 * options_.rest * options_.rest) return 0.0;
     Index anchor = mesh_.anchor[v];
-    const Point<Dim> target = slide(*mesh_.geometry, mesh_.support[v], anchor, Point<Dim>(mesh_.points[v] + t * step));
-    const SymTensor<Dim> M = field_.evaluate(target);
-    const CornerMetric<Dim> metric = corner_metric(M);
-    const double energy = energy_at(v, target, metric);
+    Candidate next;
+    evaluate(slide(*mesh_.geometry, mesh_.support[v], anchor, Point<Dim>(now.position + t * step)), next);
+    const double energy = energy_at(v, next);
     if (!(energy <= d.value + 1e-4 * t * slope)) continue;
-    const Point<Dim> move = target - mesh_.points[v];
-    const double moved = std::sqrt(dot(metric_[v].M, move, move));
-    mesh_.points[v] = target;
+    const Point<Dim> move = next.position - now.position;
+    mesh_.points[v] = next.position;
     mesh_.anchor[v] = anchor;
-    metric_[v] = metric;
+    metric_[v] = next.metric;
     last_decrease_ = d.value - energy;
-    return moved;
+    return std::sqrt(dot(now.metric.M, move, move));
   }
   return 0.0;
 }

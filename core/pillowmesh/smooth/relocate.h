@@ -11,9 +11,11 @@ namespace pillowmesh {
 
 struct RelocateOptions {
   /// A vertex rests when it and its neighbours last moved less than this, in units of the metric.
-  double rest = 5e-3;
+  double rest = 2e-3;
+  /// Newton steps are lengthened by this factor: the mesh settles in far fewer sweeps.
+  double relaxation = 1.5;
   /// The smoother stops when a sweep lowers the energy by less than this share.
-  double converged = 2e-4;
+  double converged = 1e-5;
 };
 
 struct SweepResult {
@@ -38,22 +40,33 @@ class Relocator {
   double relocate(VertexId v);
 
  private:
-  struct Term {  ///< a corner whose energy depends on the vertex being moved
-    std::array<VertexId, Dim> ends;
+  /// An edge at the vertex being moved.
+  struct Spoke {
+    VertexId end;
+    double length;  ///< integrated
+    double here;    ///< length in the metric at the moving vertex
+    double there;   ///< length in the metric at its other end
+  };
+  /// A corner whose energy depends on the vertex being moved.
+  struct Term {
     VertexId origin;
+    std::array<VertexId, Dim> ends;
     std::int8_t sign;
-    std::int8_t end;  ///< which of its edges ends at the vertex; -1: the vertex is the corner
-    /// Per edge: its length over its length in the metric at the corner; kept for the edges that do not move.
-    std::array<double, Dim> ratio;
+    std::int8_t end;                     ///< which of its edges ends at the vertex; -1: the vertex is the corner
+    std::array<std::int8_t, Dim> spoke;  ///< position in spokes_ of each edge, -1 for those that do not move
+    std::array<double, Dim> ratio;       ///< integrated length over length in the corner's metric, of those
+  };
+  struct Candidate {
+    Point<Dim> position;
+    CornerMetric<Dim> metric;
   };
 
-  void collect_terms(VertexId v);
-  /// The corner's edge vectors, scaled by their ratios, with v at `position` and its metric `metric`.
-  void scaled_frame(const Term& t, VertexId v, const Point<Dim>& position, const CornerMetric<Dim>& metric,
-                    Frame<Dim>& e, std::array<double, Dim>& ratio) const;
-  [[nodiscard]] double energy_at(VertexId v, const Point<Dim>& position, const CornerMetric<Dim>& metric) const;
-  [[nodiscard]] Derivatives<Dim> derivatives_at(VertexId v) const;
-  void add_metric_gradient(VertexId v, double reach, Derivatives<Dim>& d) const;
+  void collect(VertexId v);
+  int spoke_to(VertexId w);
+  void evaluate(const Point<Dim>& position, Candidate& at);
+  void scaled_frame(const Term& t, VertexId v, const Candidate& at, Frame<Dim>& e, std::array<double, Dim>& ratio) const;
+  [[nodiscard]] double energy_at(VertexId v, const Candidate& at) const;
+  [[nodiscard]] Derivatives<Dim> derivatives_at(VertexId v, const Candidate& at) const;
   bool newton_step(VertexId v, const Derivatives<Dim>& d, Point<Dim>& step) const;
 
   Mesh<Dim>& mesh_;
@@ -63,6 +76,9 @@ class Relocator {
   std::vector<std::uint8_t> active_;       ///< per vertex: may gain
   std::vector<CellCorner> star_;
   std::vector<Term> terms_;
+  std::vector<Spoke> spokes_;
+  std::vector<Point<Dim>> sample_points_;
+  std::vector<SymTensor<Dim>> samples_;
   double last_decrease_ = 0.0, last_energy_ = 0.0;
 };
 
