@@ -1,0 +1,105 @@
+import { describe, expect, test } from 'vitest';
+import { decodeEvents } from '../../wasm/events.ts';
+import type { CallName, Calls, Reply, Request } from '../../wasm/protocol.ts';
+import { Server } from '../../wasm/worker.ts';
+import { load } from './core.ts';
+
+/** The worker's server in this thread: calls as promises, events collected. */
+class Bench {
+  events = 0;
+  onEvents: () => void = () => undefined;
+  private next = 1;
+  private readonly waiting = new Map<number, { resolve(value: unknown): void; reject(error: unknown): void }>();
+  private readonly server = new Server({ postMessage: (reply: Reply) => this.receive(reply) }, load());
+
+  call<N extends CallName>(name: N, args: Calls[N]['args']): Promise<Calls[N]['result']> {
+    const id = this.next++;
+    const promise = new Promise((resolve, reject) => this.waiting.set(id, { resolve, reject }));
+    void this.server.handle({ id, name, args } as Request);
+    return promise as Promise<Calls[N]['result']>;
+  }
+
+  private receive(reply: Reply): void {
+    if (reply.type === 'events') {
+      this.events += decodeEvents(2, reply.ints, reply.doubles).length;
+      this.onEvents();
+    } else if (reply.type === 'answer') this.waiting.get(reply.id)?.resolve(reply.result);
+    else this.waiting.get(reply.id)?.reject(reply.failure);
+  }
+}
+
+const iso2d = { source: { kind: 'case', name: 'iso2d' } } as const;
+const pause = (milliseconds: number): Promise<void> => new Promise((resolve) => setTimeout(resolve, milliseconds));
+
+describe('the worker', () => {
+  test('streams events while it runs and answers with outcome and report', async () => {
+    const bench = new Bench();
+    await bench.call('open', iso2d);
+    const result = await bench.call('run', { options: { smooth: 'none' } });
+    expect(result.outcome.status).toBe('ok');
+    expect(result.events).toBe(bench.events);
+    expect(JSON.parse(result.report).mesh.cells).toBeGreaterThan(500);
+  });
+
+  test('stops when told to, with what it had', async () => {
+    const bench = new Bench();
+    await bench.call('open', iso2d);
+    const run = bench.call('run', { options: {} });
+    bench.onEvents = () => void bench.call('cancel', {});
+    const { outcome, report } = await run;
+    expect(outcome.status).toBe('cancelled');
+    expect(JSON.parse(report).valid).toBe(true);
+  });
+
+  test('pauses, answers meanwhile, and goes on to the same end', async () => {
+    const bench = new Bench();
+    await bench.call('open', iso2d);
+    const straight = await bench.call('run', { options: {} });
+    const run = bench.call('run', { options: {} });
+    const before = bench.events;
+    await new Promise<void>((resolve) => (bench.onEvents = resolve));
+    await bench.call('pause', {});
+    await pause(30);
+    const held = bench.events;
+    await pause(60);
+    expect(bench.events).toBe(held);
+    expect((await bench.call('tensors', { points: Float64Array.of(0, 0) })).length).toBe(3);
+    await bench.call('resume', {});
+    const result = await run;
+    expect(result.events).toBe(straight.events);
+    expect(bench.events - before).toBe(straight.events);
+  });
+
+  test('keeps mesh and metric when it refuses others', async () => {
+    const bench = new Bench();
+    const mesh = await bench.call('open', iso2d);
+    await expect(bench.call('open', { source: { kind: 'grid', spec: 'grid:2,2:0,1,0,1' }, metric: { formula: 'h = ' } })).rejects.toMatchObject({ kind: 'refused' });
+    await expect(bench.call('metric', { formula: 'h = q' })).rejects.toMatchObject({ kind: 'refused', status: 'usage' });
+    const shapes = await bench.call('measure', { points: mesh.points, cells: mesh.cells, lengths: true });
+    expect(shapes.shapes.length).toBe(63);
+    expect(shapes.lengths.length).toBe(142);
+  });
+
+  test('options of one run are not those of the next', async () => {
+    const bench = new Bench();
+    await bench.call('open', iso2d);
+    const coarse = await bench.call('run', { options: { threshold: '5', smooth: 'none' } });
+    const normal = await bench.call('run', { options: { smooth: 'none' } });
+    expect(normal.events).toBeGreaterThan(coarse.events);
+  });
+
+  test('writes the mesh of an earlier event, made again', async () => {
+    const bench = new Bench();
+    await bench.call('open', iso2d);
+    const initial = await bench.call('write', { name: 'a.mesh' });
+    await bench.call('run', { options: { smooth: 'none' } });
+    expect(await bench.call('write', { name: 'a.mesh', events: 0 })).toEqual(initial);
+    const text = (bytes: Uint8Array): string => new TextDecoder().decode(bytes);
+    const quads = (bytes: Uint8Array): number => Number(/Quadrilaterals\s+(\d+)/.exec(text(bytes))?.[1]);
+    const early = quads(await bench.call('write', { name: 'a.mesh', events: 4 }));
+    const last = quads(await bench.call('write', { name: 'a.mesh' }));
+    expect(early).toBeGreaterThan(63);
+    expect(early).toBeLessThan(last);
+    expect(JSON.parse(text(await bench.call('write', { name: 'a.json', events: 4 }))).mesh.cells).toBe(early);
+  });
+});
