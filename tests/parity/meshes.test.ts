@@ -1,0 +1,90 @@
+// The command and the WebAssembly module are two builds of one core, by two compilers: they must give the same bits.
+import { spawnSync } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import type { Core } from '../../wasm/loader.ts';
+import { cases, type Options } from '../../wasm/session.ts';
+import { load, modulePath, open, reportOf, runToEnd, type Report } from '../wasm/core.ts';
+
+const command = fileURLToPath(new URL('../../build/release/bin/pillowmesh', import.meta.url));
+const folder = mkdtempSync(join(tmpdir(), 'pillowmesh-parity-'));
+const core: Core = await load();
+
+beforeAll(() => {
+  for (const file of [command, fileURLToPath(modulePath)])
+    if (!existsSync(file)) throw new Error(`${file} is missing; build the presets release and wasm first`);
+});
+afterAll(() => rmSync(folder, { recursive: true }));
+
+const flags = (options: Options): string[] => Object.entries(options).flatMap(([name, value]) => [`--${name}`, value]);
+
+/** Runs the command; a run that ends at a limit (status 1) counts: its mesh is compared as well. */
+function adaptNatively(args: string[], name: string): { file: Buffer; report: Report } {
+  const [out, report] = [join(folder, name), join(folder, 'report.json')];
+  const { status, stderr } = spawnSync(command, ['adapt', ...args, '-q', '-o', out, '--report', report], { encoding: 'utf8' });
+  if (status !== 0 && status !== 1) throw new Error(`status ${status}: ${stderr}`);
+  return { file: readFileSync(out), report: JSON.parse(readFileSync(report, 'utf8')) as Report };
+}
+
+function adaptInWasm(source: Parameters<typeof open>[1], formula: string | null, options: Options, name: string): { file: Uint8Array; report: Report } {
+  const session = open(core, source, formula === null ? undefined : { formula }, options);
+  runToEnd(session);
+  const result = { file: session.write(name), report: reportOf(session) };
+  session.destroy();
+  return result;
+}
+
+const text = (bytes: Uint8Array): string => new TextDecoder().decode(bytes);
+
+/** What both reports must agree in to the last bit; times and memory differ. */
+const numbers = ({ mesh, edge_length, shape, irregular_vertices, complexity, valid }: Report): object => ({
+  mesh,
+  edge_length,
+  shape,
+  irregular_vertices,
+  complexity,
+  valid,
+});
+
+describe('native and WebAssembly give the same mesh and the same numbers', () => {
+  for (const { name } of cases(core))
+    test(`case ${name}`, () => {
+      const options: Options = { 'max-cells': '12000' };
+      const native = adaptNatively(['--case', name, ...flags(options)], 'mesh.vtu');
+      const wasm = adaptInWasm({ kind: 'case', name }, null, options, 'mesh.vtu');
+      expect(text(wasm.file) === text(native.file)).toBe(true);
+      expect(numbers(wasm.report)).toEqual(numbers(native.report));
+    });
+
+  const variants: Options[] = [
+    { smooth: 'none' },
+    { smooth: 'between' },
+    { dice: '2', threshold: '1.7' },
+    { thickness: '2', augment: '0' },
+  ];
+  for (const options of variants)
+    test(`circle2d with ${flags(options).join(' ')}`, () => {
+      const native = adaptNatively(['--case', 'circle2d', ...flags(options)], 'mesh.mesh');
+      const wasm = adaptInWasm({ kind: 'case', name: 'circle2d' }, null, options, 'mesh.mesh');
+      expect(text(wasm.file) === text(native.file)).toBe(true);
+    });
+
+  test('a formula of every function, on a mesh that comes as a file', () => {
+    const formula =
+      'a = 0.02 + 0.05*abs(sin(3*x)*cos(2*y)) + 0.01*exp(-x^2)*tanh(y) + 0.01*log(2 + x);' +
+      'theta = atan2(y - 0.3, x + 0.2) + 0.1*asin(0.5*x) - 0.1*acos(0.5*y);' +
+      'h1 = max(a, 0.03) + 0.01*floor(2*x); h2 = min(2*h1, sqrt(0.04 + pow(x, 2.5)) + tan(0.1*y))';
+    const path = join(folder, 'start.msh');
+    const start = open(core, { kind: 'grid', spec: 'grid:6,5:0,1,0,1' });
+    const bytes = start.write('start.msh');
+    expect(spawnSync(command, ['convert', 'grid:6,5:0,1,0,1', path]).status).toBe(0);
+    expect(text(readFileSync(path)) === text(bytes)).toBe(true);
+    const native = adaptNatively([path, '--metric', formula], 'mesh.msh');
+    const wasm = adaptInWasm({ kind: 'file', name: 'start.msh', bytes }, formula, {}, 'mesh.msh');
+    expect(text(wasm.file) === text(native.file)).toBe(true);
+    expect(numbers(wasm.report)).toEqual(numbers(native.report));
+  });
+});
