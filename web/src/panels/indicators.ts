@@ -40,7 +40,7 @@ function makeTable(caption: string): { element: HTMLElement; fill(ours: Row | nu
       const row = (label: string, values: Row, kind: string): HTMLElement =>
         h('tr', { class: kind }, h('th', { scope: 'row' }, label), ...cells(values));
       body.replaceChildren(
-        ...(ours ? [row('Shown mesh', ours, 'ours')] : []),
+        ...(ours ? [row('Shown', ours, 'ours')] : []),
         ...(paper.length ? [h('tr', { class: 'group' }, h('th', { scope: 'rowgroup', colspan: columns.length + 1 }, 'Published in the paper'))] : []),
         ...paper.map(([label, values]) => row(label, values, 'paper')),
       );

@@ -100,9 +100,13 @@ export function makeTransport(actions: TransportActions): Transport {
     const context = track.getContext('2d');
     if (!context || events.length === 0) return;
     const colours = Object.fromEntries(eventKinds.map((k) => [k, style.getPropertyValue(`--event-${k}`)]));
-    // Where several events share a column of pixels, the last one is drawn.
+    // Where several events share a column of pixels, the last one is drawn; layers stand for what becomes of them.
+    const crowded = width < 3 * events.length;
     const columns = new Map<number, EventKind>();
-    events.forEach(({ kind }, i) => columns.set(Math.floor((i * width) / events.length), kind));
+    events.forEach(({ kind }, i) => {
+      const shown = crowded && (kind === 'shrink' || kind === 'connect') ? 'layer' : kind;
+      columns.set(Math.floor((i * width) / events.length), shown);
+    });
     const column = Math.max(1, Math.ceil(width / events.length));
     const tall = events.flatMap(({ kind }, i) => (kind === 'iteration' || kind === 'tags' ? [[i, kind] as const] : []));
     for (const [x, kind] of columns) {

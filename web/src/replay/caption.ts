@@ -11,10 +11,12 @@ const counted = (count: number, one: string, many = `${one}s`): string => `${cou
 
 export function captionOf(event: MeshEvent | undefined, mesh: ReplayMesh, threshold: string, total: number): string {
   const cells = (count: number): string => counted(count, cellWord(mesh.dim, 1), cellWord(mesh.dim, 2));
-  if (!event)
-    return total === 0
-      ? `The initial mesh: ${cells(mesh.liveCellCount())}. Each ellipse is the size and shape of cell that the metric asks for there.`
-      : `The initial mesh: ${cells(mesh.liveCellCount())}, before anything is done to it.`;
+  if (!event) {
+    const initial = `The initial mesh: ${cells(mesh.liveCellCount())}`;
+    if (total > 0) return `${initial}, before anything is done to it.`;
+    const wish = mesh.dim === 2 ? ' Each ellipse is the cell that the metric wants there.' : '';
+    return `${initial}.${wish} Press play: layers of ${cellWord(mesh.dim, 2)} are inserted until every edge has a metric length of about 1.`;
+  }
   switch (event.kind) {
     case 'tags':
       return event.edges.length === 0

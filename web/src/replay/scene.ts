@@ -1,5 +1,5 @@
 // What an event looks like: which edges, cells and facets stand out after it.
-import type { MeshEvent } from '../../../wasm/events.ts';
+import type { EventKind, MeshEvent } from '../../../wasm/events.ts';
 
 /** What stands out beside the mesh. Vertices are those of the mesh after the event. */
 export interface Scene {
@@ -23,37 +23,42 @@ function edgeKey(a: number, b: number): number {
   return Math.min(a, b) * 2 ** 26 + Math.max(a, b);
 }
 
+function removeEdges(set: Map<number, [number, number]>, edges: Int32Array): void {
+  for (let i = 0; i < edges.length; i += 2) set.delete(edgeKey(edges[i], edges[i + 1]));
+}
+
 function addEdges(set: Map<number, [number, number]>, edges: Int32Array): void {
   for (let i = 0; i < edges.length; i += 2) set.set(edgeKey(edges[i], edges[i + 1]), [edges[i], edges[i + 1]]);
 }
 
-/** The tags that wait after events[0 .. count): those found last, less those that layers have used since. */
+/**
+ * The tags that wait after events[0 .. count): those found last that no layer has used since, and those that new edges
+ * have inherited. The latter are known by the layers of this iteration that use them later: an edge between two
+ * vertices that exist already exists itself, because later ones only ever join copies to their originals.
+ */
 function waitingTags(events: readonly MeshEvent[], count: number): Int32Array {
   let start = count - 1;
   while (start >= 0 && events[start].kind !== 'tags') {
-    if (events[start].kind === 'iteration') return none;
+    if (!steps.has(events[start].kind)) return none;
     --start;
   }
   if (start < 0) return none;
   const waiting = new Map<number, [number, number]>();
   addEdges(waiting, events[start].edges);
-  for (let i = start + 1; i < count; ++i) {
+  let i = start + 1;
+  for (; i < count; ++i) if (events[i].kind === 'shrink' && events[i - 1].kind === 'layer') removeEdges(waiting, events[i - 1].edges);
+  const vertices = events[count - 1].delta.verticesAfter;
+  for (; i < events.length && steps.has(events[i].kind); ++i) {
     const { kind, edges } = events[i];
-    // A layer uses its tags when it is shrunk; what the new edges inherit comes with `connect`.
-    if (kind === 'shrink') for (const edge of usedBy(events, i)) waiting.delete(edge);
-    if (kind === 'connect') addEdges(waiting, edges);
-    if (kind === 'dice' || kind === 'relocation') waiting.clear();
+    if (kind !== 'layer') continue;
+    for (let k = 0; k < edges.length; k += 2)
+      if (edges[k] < vertices && edges[k + 1] < vertices) addEdges(waiting, edges.subarray(k, k + 2));
   }
   return Int32Array.from([...waiting.values()].flat());
 }
 
-function usedBy(events: readonly MeshEvent[], shrink: number): number[] {
-  const layer = events[shrink - 1];
-  if (layer?.kind !== 'layer') return [];
-  const keys: number[] = [];
-  for (let i = 0; i < layer.edges.length; i += 2) keys.push(edgeKey(layer.edges[i], layer.edges[i + 1]));
-  return keys;
-}
+/** What happens between the tags of an iteration and its end. */
+const steps: ReadonlySet<EventKind> = new Set(['layer', 'shrink', 'connect']);
 
 /** What stands out after events[0 .. count). Cost: linear in the events of the present iteration. */
 export function sceneAfter(events: readonly MeshEvent[], count: number): Scene {
