@@ -44,6 +44,7 @@ struct Adapter<Dim>::State {
   Stage stage = Stage::tag;
   Status outcome;
   int iteration = 0;
+  CellId first_new = 0;  ///< cells from here on were made in this iteration
   Tagging<Dim> tagging;
   EdgeTags<Dim> tags;
   std::vector<CellId> seeds;  ///< cells that may carry tags, in the order in which layers are sought
@@ -114,6 +115,7 @@ struct Adapter<Dim>::State {
     tagging.collect_tagged_cells(mesh, tags, seeds);
     recorder.tags(mesh, tags, iteration);
     next_seed = 0;
+    first_new = mesh.cell_count();
     inserted = refused = 0;
     stage = Stage::layers;
   }
@@ -126,7 +128,7 @@ struct Adapter<Dim>::State {
     const CellId c = seeds[next_seed];
     int e = 0;
     while (!tags.has(c, e)) ++e;
-    find_layer(mesh, tags, {c, e}, {options.augment, options.thickness}, layer_marks, layer);
+    find_layer(mesh, tags, {c, e}, {options.augment, options.thickness, first_new}, layer_marks, layer);
     if (mesh.cell_count() + static_cast<std::int64_t>(Cell<Dim>::facets * layer.cells.size()) > options.max_cells) {
       outcome = Status::limit_not_met("stopped before the mesh would have had more than " +
                                       std::to_string(options.max_cells) + " cells");

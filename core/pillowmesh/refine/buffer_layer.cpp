@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pillowmesh/mesh/jacobian.h"
+#include "pillowmesh/refine/untangle.h"
 
 namespace pillowmesh {
 namespace {
@@ -156,13 +157,17 @@ class Inserter {
     }
   }
 
-  bool valid() const {
+  bool conforming() const {
+    for (CellId k = layer_.first_cell; k < mesh_.cell_count(); ++k)
+      if (!conforming(k)) return false;
+    return true;
+  }
+
+  bool positive() const {
     for (const CellId c : layer_.changed)
       if (!(min_corner_jacobian(mesh_, c) > 0)) return false;
-    for (CellId k = layer_.first_cell; k < mesh_.cell_count(); ++k) {
+    for (CellId k = layer_.first_cell; k < mesh_.cell_count(); ++k)
       if (!(min_corner_jacobian(mesh_, k) > 0)) return false;
-      if (!conforming(k)) return false;
-    }
     return true;
   }
 
@@ -257,10 +262,10 @@ Status insert_buffer_layer(Mesh<Dim>& mesh, std::span<const CellId> shrink_set,
   Status status;
   if (work.hull.facets.empty()) status = Status::illegal("the shrink set is the whole mesh: it has no hull");
   Inserter<Dim> inserter(mesh, work, layer);
-  // A third of the way across at first; a tenth where thin or bent cells would turn inside out.
-  for (const double shrink : {1.0, 0.3, 0.1}) {
-    if (work.hull.facets.empty()) break;
-    status = plan_copies(mesh, work.hull, shrink, work.plan);
+  // A third of the way across at first; a tenth where thin or bent cells would turn inside out; then untangling.
+  constexpr std::array<double, 3> shrinks{1.0, 0.3, 1.0};
+  for (std::size_t attempt = 0; attempt < shrinks.size() && !work.hull.facets.empty(); ++attempt) {
+    status = plan_copies(mesh, work.hull, shrinks[attempt], work.plan);
     if (!status.ok()) break;
     inserter.find_side_neighbours();
     inserter.rename_corners();
@@ -268,7 +273,13 @@ Status insert_buffer_layer(Mesh<Dim>& mesh, std::span<const CellId> shrink_set,
     inserter.extrude();
     inserter.connect_sides();
     inserter.repair_vertex_cells();
-    if (inserter.valid()) break;
+    if (!inserter.conforming()) {
+      inserter.undo();
+      status = Status::illegal("two cells would share more than one facet");
+      break;
+    }
+    const bool last = attempt + 1 == shrinks.size();
+    if (inserter.positive() || (last && untangle(mesh, layer.first_vertex) && inserter.positive())) break;
     inserter.undo();
     status = Status::illegal("no position of the new vertices keeps all corner Jacobians positive");
   }

@@ -49,10 +49,11 @@ class Grower {
   }
 
   /// One ring: through all parallel edges, tagged or not, of the cells that are there.
-  void augment() {
+  void augment(CellId first_new) {
     const std::size_t before = layer_.visits.size();
     for (std::size_t i = 0; i < before; ++i) {
       const LayerCell v = layer_.visits[i];
+      if (v.cell >= first_new) continue;
       for (int k = 0; k < C::edges_per_axis; ++k) {
         const int e = C::edge(v.axis, k);
         add_cells_at({v.cell, e}, top_of(v, e));
@@ -134,7 +135,7 @@ void find_layer(const Mesh<Dim>& mesh, EdgeTags<Dim>& tags, CellEdge seed, const
   Grower<Dim> grower(mesh, tags, marks, layer);
   grower.use(seed, mesh.cells[seed.cell][Cell<Dim>::edge_to(seed.edge)]);
   grower.follow_tags(0);
-  for (int i = 0; i < options.augment; ++i) grower.augment();
+  for (int i = 0; i < options.augment; ++i) grower.augment(options.first_new);
   std::size_t bottom_first = 0, bottom_last = layer.visits.size(), top_first = 0, top_last = bottom_last;
   for (int i = 1; i < options.thickness; ++i) grower.thicken(bottom_first, bottom_last, top_first, top_last);
   grower.clear_marks();

@@ -1,6 +1,7 @@
 // Layers: contiguous cells connected by parallel tagged edges. [Paper] section 4, step 2, Figures 2 to 4.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "pillowmesh/refine/edge_tags.h"
@@ -10,6 +11,8 @@ namespace pillowmesh {
 struct LayerOptions {
   int augment = 1;    ///< rings of cells added at the ends, perpendicular to the refinement
   int thickness = 1;  ///< cells across
+  /// No ring is added through cells from this number on: those that this iteration has made are small already.
+  CellId first_new = std::numeric_limits<CellId>::max();
 };
 
 /// A cell of a layer, the axis along which the layer is refined there, and which side of that axis is "up".

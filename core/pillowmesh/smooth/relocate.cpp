@@ -102,13 +102,13 @@ Point<Dim> step_along(const Tangent<Dim>& t, const Derivatives<Dim>& d) {
 
 template <int Dim>
 Relocator<Dim>::Relocator(Mesh<Dim>& mesh, const MetricField<Dim>& field, RelocateOptions options)
-    : mesh_(mesh), field_(field), options_(options) {
+    : mesh_(mesh), field_(field.scaled(options.target_length)), options_(options) {
   metric_.resize(mesh.points.size());
   active_.assign(mesh.points.size(), 0);
   std::array<SymTensor<Dim>, 256> batch;
   for (std::size_t i = 0; i < mesh.points.size(); i += batch.size()) {
     const std::size_t n = std::min(batch.size(), mesh.points.size() - i);
-    field.evaluate(std::span(mesh.points).subspan(i, n), batch);
+    field_.evaluate(std::span(mesh.points).subspan(i, n), batch);
     for (std::size_t k = 0; k < n; ++k) metric_[i + k] = corner_metric(batch[k]);
   }
   for (VertexId v = 0; v < mesh.vertex_count(); ++v)
@@ -119,7 +119,7 @@ template <int Dim>
 int Relocator<Dim>::spoke_to(VertexId w) {
   for (std::size_t i = 0; i < spokes_.size(); ++i)
     if (spokes_[i].end == w) return static_cast<int>(i);
-  spokes_.push_back({w, 0, 0, 0});
+  spokes_.push_back({w, 0, 0, 0, 0, false});
   return static_cast<int>(spokes_.size()) - 1;
 }
 
@@ -140,22 +140,33 @@ void Relocator<Dim>::collect(VertexId v) {
       t.spoke[d] = -1;
       if (end < 0) t.spoke[d] = static_cast<std::int8_t>(spoke_to(t.ends[d]));
       if (end == d) t.spoke[d] = static_cast<std::int8_t>(spoke_to(t.origin));
-      if (t.spoke[d] >= 0) continue;
-      const Point<Dim> e = mesh_.points[t.ends[d]] - o;
-      const double a = std::sqrt(dot(metric_[t.origin].M, e, e)), b = std::sqrt(dot(metric_[t.ends[d]].M, e, e));
-      t.ratio[d] = mean_length(a, b) / a;
+      if (t.spoke[d] < 0) sample_points_.push_back(0.5 * (o + mesh_.points[t.ends[d]]));
     }
     terms_.push_back(t);
   };
+  sample_points_.clear();
   for (const auto& [c, corner] : star_) {
     add(c, corner, -1);
     for (int d = 0; d < Dim; ++d) add(c, corner ^ (1 << d), d);
   }
+  samples_.resize(sample_points_.size());
+  field_.evaluate(sample_points_, samples_);
+  std::size_t sample = 0;
+  for (Term& t : terms_)
+    for (int d = 0; d < Dim; ++d) {
+      if (t.spoke[d] >= 0) continue;
+      const Point<Dim> e = mesh_.points[t.ends[d]] - mesh_.points[t.origin];
+      const double a = std::sqrt(dot(metric_[t.origin].M, e, e)), b = std::sqrt(dot(metric_[t.ends[d]].M, e, e));
+      const double middle = std::sqrt(dot(samples_[sample++], e, e));
+      t.ratio[d] = 0.5 * (mean_length(a, middle) + mean_length(middle, b)) / a;
+    }
 }
 
-/// The metric at a candidate position and in the middle of the edges there; their lengths go to spokes_.
+/// The metric at a candidate position and on the edges there; their integrated lengths go to spokes_. One point in the
+/// middle of an edge, and two more where the size varies a lot along it: the energy must agree with its gradient.
 template <int Dim>
 void Relocator<Dim>::evaluate(const Point<Dim>& position, Candidate& at) {
+  constexpr double varies = 1.25;
   sample_points_.clear();
   sample_points_.push_back(position);
   for (const Spoke& s : spokes_) sample_points_.push_back(0.5 * (position + mesh_.points[s.end]));
@@ -163,13 +174,31 @@ void Relocator<Dim>::evaluate(const Point<Dim>& position, Candidate& at) {
   field_.evaluate(sample_points_, samples_);
   at.position = position;
   at.metric = corner_metric(samples_[0]);
+  sample_points_.clear();
   for (std::size_t i = 0; i < spokes_.size(); ++i) {
     Spoke& s = spokes_[i];
     const Point<Dim> e = mesh_.points[s.end] - position;
     s.here = std::sqrt(dot(at.metric.M, e, e));
+    s.middle = std::sqrt(dot(samples_[i + 1], e, e));
     s.there = std::sqrt(dot(metric_[s.end].M, e, e));
-    const double middle = std::sqrt(dot(samples_[i + 1], e, e));
-    s.length = 0.5 * (mean_length(s.here, middle) + mean_length(middle, s.there));
+    s.length = 0.5 * (mean_length(s.here, s.middle) + mean_length(s.middle, s.there));
+    const double low = std::min(s.middle, std::min(s.here, s.there)), high = std::max(s.middle, std::max(s.here, s.there));
+    s.varies = high > varies * low;
+    if (!s.varies) continue;
+    sample_points_.push_back(position + 0.25 * e);
+    sample_points_.push_back(position + 0.75 * e);
+  }
+  if (sample_points_.empty()) return;
+  samples_.resize(sample_points_.size());
+  field_.evaluate(sample_points_, samples_);
+  std::size_t sample = 0;
+  for (Spoke& s : spokes_) {
+    if (!s.varies) continue;
+    const Point<Dim> e = mesh_.points[s.end] - position;
+    const double near = std::sqrt(dot(samples_[sample], e, e)), far = std::sqrt(dot(samples_[sample + 1], e, e));
+    sample += 2;
+    s.length = 0.25 * (mean_length(s.here, near) + mean_length(near, s.middle) + mean_length(s.middle, far) +
+                       mean_length(far, s.there));
   }
 }
 

@@ -11,11 +11,13 @@ namespace pillowmesh {
 
 struct RelocateOptions {
   /// A vertex rests when it and its neighbours last moved less than this, in units of the metric.
-  double rest = 2e-3;
+  double rest = 1e-3;
+  /// Metric length that the smoother aims at. Refinement that stops at threshold 2 leaves a mean below 1.
+  double target_length = 0.95;
   /// Newton steps are lengthened by this factor: the mesh settles in far fewer sweeps.
   double relaxation = 1.5;
   /// The smoother stops when a sweep lowers the energy by less than this share.
-  double converged = 1e-5;
+  double converged = 3e-6;
 };
 
 struct SweepResult {
@@ -30,7 +32,7 @@ struct SweepResult {
 template <int Dim>
 class Relocator {
  public:
-  /// Both must outlive the relocator; the topology of the mesh must not change meanwhile.
+  /// The mesh must outlive the relocator, and its topology must not change meanwhile.
   Relocator(Mesh<Dim>& mesh, const MetricField<Dim>& field, RelocateOptions options = {});
 
   /// Visits every vertex that may gain, in order of their numbers. Cost: linear in the vertices visited.
@@ -45,7 +47,9 @@ class Relocator {
     VertexId end;
     double length;  ///< integrated
     double here;    ///< length in the metric at the moving vertex
+    double middle;  ///< length in the metric in its middle
     double there;   ///< length in the metric at its other end
+    bool varies;    ///< these differ a lot
   };
   /// A corner whose energy depends on the vertex being moved.
   struct Term {
@@ -70,7 +74,7 @@ class Relocator {
   bool newton_step(VertexId v, const Derivatives<Dim>& d, Point<Dim>& step) const;
 
   Mesh<Dim>& mesh_;
-  const MetricField<Dim>& field_;
+  MetricField<Dim> field_;  ///< scaled to the target length
   RelocateOptions options_;
   std::vector<CornerMetric<Dim>> metric_;  ///< per vertex
   std::vector<std::uint8_t> active_;       ///< per vertex: may gain
