@@ -78,7 +78,6 @@ int adapt_mesh(Mesh<Dim> mesh, const AdaptFlags& flags, double read_seconds) {
   Context context;
   context.cancelled = interrupted;
   context.progress = [&](double share, std::string_view activity) { progress.set(share, activity); };
-  catch_interrupts();
   Adapter<Dim> adapter(std::move(mesh), *field, flags.options, std::move(context));
   if (Status s = run(adapter, steps, progress); !s.ok()) return fail(s);
   const double adapt_seconds = clock.lap();
@@ -109,6 +108,7 @@ int adapt_mesh(Mesh<Dim> mesh, const AdaptFlags& flags, double read_seconds) {
 int adapt(const AdaptFlags& flags) {
   if (Status s = check_output(flags.output, flags.problem.input, flags.write); !s.ok()) return fail(s);
   if (Status s = check_not_input(flags.report, flags.problem.input); !s.ok()) return fail(s);
+  catch_interrupts();
   Clock clock;
   auto mesh = problem_mesh(flags.problem);
   if (!mesh) return fail(mesh.status());

@@ -74,7 +74,7 @@ class GmshReader {
         skip_section();
         continue;
       } else {
-        in_.fail("expected a section such as $Nodes, found '" + std::string(section_.substr(0, 24)) + "'");
+        in_.fail("expected a section such as $Nodes, found " + quoted(section_));
       }
       if (!in_.failed()) end_section();
     }
@@ -101,7 +101,7 @@ class GmshReader {
     } else if (version == "2.2" || version == "2.1" || version == "2" || version == "2.0") {
       version_ = 22;
     } else {
-      return in_.fail("Gmsh format version '" + version.substr(0, 24) + "' is not supported: save as 4.1 or 2.2");
+      return in_.fail("Gmsh format version " + quoted(version) + " is not supported: save as 4.1 or 2.2");
     }
     const std::int64_t kind = in_.integer("the file type");
     const std::int64_t size = in_.integer("the data size");
@@ -128,16 +128,15 @@ class GmshReader {
       const std::string_view word = in_.word();
       const std::string expected = "$End" + std::string(section_.substr(1));
       if (in_.failed() || word == expected) return;
-      in_.fail(word.empty() ? "the file ends before " + expected + "; it is truncated"
-                            : "expected " + expected + ", found '" + std::string(word.substr(0, 24)) +
-                                  "'; a count before it is wrong");
+      in_.fail(word.empty() ? "the file ends before " + quoted(expected) + "; it is truncated"
+                            : "expected " + quoted(expected) + ", found " + quoted(word) + "; a count before it is wrong");
     });
   }
 
   void skip_section() {
     const std::string end = "$End" + std::string(section_.substr(1));
     const std::size_t at = in_.find(end);
-    if (at == std::string_view::npos) return in_.fail("the file ends before " + end + "; it is truncated");
+    if (at == std::string_view::npos) return in_.fail("the file ends before " + quoted(end) + "; it is truncated");
     in_.seek(at + end.size(), !binary_);
   }
 

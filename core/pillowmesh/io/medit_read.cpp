@@ -184,8 +184,8 @@ FileMesh read_medit_ascii(Source& in) {
       if (dim == 0) in.fail("the Dimension should come before " + std::string(keyword));
       SectionReader<std::int32_t, double>(in, mesh, dim).read(*section);
     } else if (!is_letter(keyword[0])) {
-      in.fail("expected a keyword, found '" + std::string(keyword.substr(0, 24)) +
-              "'; the section before holds more numbers than its count says");
+      in.fail("expected a keyword, found " + quoted(keyword) +
+              "; the section before holds more numbers than its count says");
     } else {  // a section that does not matter: to the next keyword
       for (;;) {
         const Source::Mark before = in.mark();

@@ -7,15 +7,14 @@ namespace {
 
 bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r') || c == '\0'; }
 
-/// A word of a file as it may be shown: short, printable, quoted.
-std::string quoted(std::string_view word) {
+}  // namespace
+
+std::string quoted(std::string_view piece) {
   std::string text = "'";
-  for (char c : word.substr(0, 24)) text += c >= ' ' && c <= '~' ? c : '?';
-  if (word.size() > 24) text += "...";
+  for (char c : piece.substr(0, 32)) text += c >= ' ' && c <= '~' ? c : '?';
+  if (piece.size() > 32) text += "...";
   return text + "'";
 }
-
-}  // namespace
 
 void Source::fail_at(std::int64_t place, const std::string& reason) {
   if (failed()) return;

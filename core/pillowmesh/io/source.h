@@ -12,6 +12,9 @@
 
 namespace pillowmesh {
 
+/// A piece of a file as a message may show it: short, printable, in quotes.
+std::string quoted(std::string_view piece);
+
 /// After a failure every read returns 0 or an empty word, so that readers check once per section, not per value.
 class Source {
  public:

@@ -61,19 +61,19 @@ class VtkReader {
     while (!digits.empty() && digits.front() == ' ') digits.remove_prefix(1);
     while (!digits.empty() && digits.back() == ' ') digits.remove_suffix(1);
     if (!parse_double(digits, version) || version < 1.0 || version >= 6.0)
-      in_.fail("VTK file version '" + std::string(digits.substr(0, 24)) + "' is not supported");
+      in_.fail("VTK file version " + quoted(digits) + " is not supported");
     modern_ = version >= 5.0;
     in_.rest_of_line();  // the title
     const std::string format(in_.word());
     if (format == "BINARY") {
       binary_ = true;
     } else if (format != "ASCII") {
-      in_.fail("expected ASCII or BINARY, found '" + format.substr(0, 24) + "'");
+      in_.fail("expected ASCII or BINARY, found " + quoted(format));
     }
     if (in_.word() != "DATASET") in_.fail("expected DATASET");
     const std::string dataset(in_.word());
     if (dataset != "UNSTRUCTURED_GRID")
-      in_.fail("the dataset is '" + dataset.substr(0, 24) + "'; only UNSTRUCTURED_GRID is read");
+      in_.fail("the dataset is " + quoted(dataset) + "; only UNSTRUCTURED_GRID is read");
     if (binary_ && !in_.failed()) in_.set_binary(std::endian::native == std::endian::little);
     while (!in_.failed() && read_section()) {
     }
@@ -134,7 +134,7 @@ class VtkReader {
   }
   Type type(const std::string& name) {
     const Type t = type_of(name);
-    if (t == Type::none) in_.fail("the data type '" + name.substr(0, 24) + "' is not supported");
+    if (t == Type::none) in_.fail("the data type " + quoted(name) + " is not supported");
     return t;
   }
   Index index(std::int64_t v) {
@@ -314,8 +314,7 @@ class VtkReader {
                                     : is("GLOBAL_IDS") || is("PEDIGREE_IDS") ? 1
                                                                              : 0;
     if (components == 0) {
-      in_.fail("expected a keyword such as CELLS, found '" + keyword.substr(0, 24) +
-               "'; a count before it may be wrong");
+      in_.fail("expected a keyword such as CELLS, found " + quoted(keyword) + "; a count before it may be wrong");
       return false;
     }
     const std::string type_name = word();

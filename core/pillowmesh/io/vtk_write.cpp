@@ -54,7 +54,7 @@ void write_vtk(const MeshInput<Dim>& mesh, Sink& sink, bool binary) {
   for (std::size_t i = 0; i < total; ++i)
     value(static_cast<Index>(i < mesh.cells.size() ? kVtkCell<Dim> : kVtkFacet<Dim>), '\n');
   end_values();
-  sink << "CELL_DATA " << total << "\nSCALARS group int 1\nLOOKUP_TABLE default\n";
+  sink << "CELL_DATA " << total << "\nFIELD FieldData 1\ngroup 1 " << total << " int\n";
   for (Index group : group_array(mesh)) value(group, '\n');
   end_values();
 }

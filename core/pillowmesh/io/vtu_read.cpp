@@ -58,8 +58,7 @@ class VtuReader {
       return false;
     }
     if (attribute(tag, "type") != "UnstructuredGrid") {
-      fail(tag.begin,
-           "the dataset is '" + std::string(attribute(tag, "type").substr(0, 24)) + "'; only UnstructuredGrid is read");
+      fail(tag.begin, "the dataset is " + quoted(attribute(tag, "type")) + "; only UnstructuredGrid is read");
       return false;
     }
     const bool big = attribute(tag, "byte_order") == "BigEndian";
@@ -68,8 +67,8 @@ class VtuReader {
     const std::string_view compressor = attribute(tag, "compressor");
     compressed_ = !compressor.empty();
     if (compressed_ && compressor != "vtkZLibDataCompressor") {
-      fail(tag.begin, "data compressed by " + std::string(compressor.substr(0, 40)) +
-                          " is not read: save with zlib or without compression");
+      fail(tag.begin,
+           "data compressed by " + quoted(compressor) + " is not read: save with zlib or without compression");
       return false;
     }
     for (tag = next_tag(text_, tag.end); !tag.name.empty(); tag = next_tag(text_, tag.end)) {
@@ -169,7 +168,7 @@ class VtuReader {
     if (type == "UInt16") return convert<std::uint16_t>(bytes, out);
     if (type == "Int8") return convert<std::int8_t>(bytes, out);
     if (type == "UInt8") return convert<std::uint8_t>(bytes, out);
-    fail(array.tag.begin, "the data type '" + std::string(type.substr(0, 24)) + "' is not supported");
+    fail(array.tag.begin, "the data type " + quoted(type) + " is not supported");
   }
 
   template <class T>
@@ -178,8 +177,7 @@ class VtuReader {
     for (std::string_view w = words.word(); !w.empty(); w = words.word()) {
       double value = 0.0;
       if (!parse_double(w, value)) {
-        fail(static_cast<std::size_t>(w.data() - text_.data()),
-             "expected a number, found '" + std::string(w.substr(0, 24)) + "'");
+        fail(static_cast<std::size_t>(w.data() - text_.data()), "expected a number, found " + quoted(w));
         return;
       }
       out.push_back(number<T>(value));
