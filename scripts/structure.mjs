@@ -117,7 +117,7 @@ export function privateLines(path, text) {
   return lines.filter(({ line }) => private_.test(line)).map(({ line, number }) => `${path}:${number}: ${line.trim()}`);
 }
 
-/** All files of the repository, committed or about to be, as a Map from path to content. */
+/** All files of the repository, committed or about to be added, as a Map from path to content. */
 export function repositoryFiles() {
   const paths = output('git', ['ls-files', '--cached', '--others', '--exclude-standard']).split('\n');
   const binary = /\.(png|jpg|gz|bin|ico|woff2|meshb)$/;

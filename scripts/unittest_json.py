@@ -6,6 +6,10 @@ import unittest
 
 suite = unittest.TestLoader().discover(sys.argv[1], pattern="*_test.py")
 outcome = unittest.TextTestRunner(stream=sys.stderr, verbosity=2).run(suite)
-failed = len(outcome.failures) + len(outcome.errors) + len(outcome.unexpectedSuccesses)
-print(json.dumps({"passed": outcome.testsRun - failed - len(outcome.skipped), "failed": failed}))
+
+# A test with several failed subtests is one failed test.
+broken = {getattr(test, "test_case", test).id() for test, _ in outcome.failures + outcome.errors}
+failed = len(broken) + len(outcome.unexpectedSuccesses)
+passed = max(0, outcome.testsRun - failed - len(outcome.skipped))
+print(json.dumps({"passed": passed, "failed": failed}))
 sys.exit(1 if failed else 0)
