@@ -1,0 +1,330 @@
+// The real command: exit status, messages, files. Needs build/release/bin/pillowmesh, or $PILLOWMESH_BIN.
+import { spawn, spawnSync } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { setTimeout as sleep } from 'node:timers/promises';
+import { fileURLToPath } from 'node:url';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+
+const root = fileURLToPath(new URL('../..', import.meta.url));
+const command = process.env.PILLOWMESH_BIN ?? join(root, 'build', 'release', 'bin', 'pillowmesh');
+const data = (name: string) => join(root, 'tests', 'data', name);
+
+let folder = '';
+beforeAll(() => {
+  folder = mkdtempSync(join(tmpdir(), 'pillowmesh_cli_'));
+});
+afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const file = (name: string) => join(folder, name);
+
+function pillowmesh(...args: string[]) {
+  const done = spawnSync(command, args, { encoding: 'utf8', cwd: folder, timeout: 50_000, maxBuffer: 1 << 26 });
+  if (done.error) throw done.error;
+  return { status: done.status, out: done.stdout, err: done.stderr };
+}
+
+/** Runs what must succeed. */
+function ok(...args: string[]) {
+  const done = pillowmesh(...args);
+  expect(done.err).toBe('');
+  expect(done.status).toBe(0);
+  return done.out;
+}
+
+/** Expects an exit status and one line on stderr that holds all of `parts`. */
+function refused(status: number, args: string[], ...parts: string[]) {
+  const done = pillowmesh(...args);
+  expect(done.status, done.err).toBe(status);
+  expect(done.out).toBe('');
+  expect(done.err).toMatch(/^pillowmesh: .+\n$/);
+  for (const part of parts) expect(done.err).toContain(part);
+}
+
+interface Statistics {
+  count: number;
+  min: number;
+  mean: number;
+  max: number;
+  cv: number;
+}
+interface Report {
+  mesh: { dim: number; vertices: number; edges: number; cells: number };
+  edge_length: Statistics & { share_in_range: number };
+  shape: Statistics;
+  complexity: number;
+  valid: boolean;
+  seconds: Record<string, number>;
+  peak_memory_bytes: number;
+  operations: Record<string, number>;
+}
+const report = (...args: string[]) => JSON.parse(ok(...args, '--report', '-')) as Report;
+
+/** Numbers of quads and of boundary lines by group in a VTU file written as text. */
+function vtu(path: string) {
+  const text = readFileSync(path, 'utf8');
+  const array = (name: string) =>
+    (new RegExp(`Name="${name}"[^>]*>([^<]*)<`).exec(text)?.[1] ?? '').trim().split(/\s+/).map(Number);
+  const types = array('types');
+  const group = array('group');
+  const lines: Record<number, number> = {};
+  types.forEach((type, i) => {
+    const g = group[i] ?? -1;
+    if (type === 3) lines[g] = (lines[g] ?? 0) + 1;
+  });
+  return { quads: types.filter((t) => t === 9).length, lines };
+}
+
+describe('help', () => {
+  test('--version prints name and version', () => {
+    expect(ok('--version')).toMatch(/^pillowmesh \d+\.\d+\.\d+\n$/);
+  });
+
+  test.each([[[]], [['adapt']], [['measure']], [['convert']], [['cases']]])('--help of %j shows an example', (names) => {
+    expect(ok(...names, '--help')).toMatch(/Examples?:\n {2}pillowmesh/);
+  });
+
+  test('--help of adapt names every option', () => {
+    const help = ok('adapt', '--help');
+    const options = 'metric case size-scale method threshold smooth dice thickness augment max-cells steps report output';
+    for (const option of options.split(' ')) expect(help).toContain(`--${option}`);
+  });
+
+  test('every example of the help is understood', () => {
+    for (const name of ['adapt', 'measure', 'convert']) {
+      const examples = ok(name, '--help').split('\n').filter((line) => line.startsWith('  pillowmesh '));
+      expect(examples.length).toBeGreaterThan(0);
+      for (const example of examples) {
+        const words = [...example.trim().matchAll(/"([^"]*)"|(\S+)/g)].map((m) => m[1] ?? m[2] ?? '').slice(1);
+        // Understood: it runs, or it misses only the example's file.
+        const { status, err } = pillowmesh(...words);
+        if (status !== 0) expect(err).toMatch(/(plate\.\w+|out\.vtu): cannot be read/);
+      }
+    }
+  });
+
+  test('cases lists the cases of the paper with mesh and metric', () => {
+    const text = ok('cases');
+    for (const name of ['iso2d', 'aniso2d', 'circle2d']) expect(text).toContain(name);
+    expect(text).toContain('grid:7,9:0,7,0,9');
+  });
+});
+
+describe('usage errors have exit status 2', () => {
+  const grid = 'grid:2,2:0,1,0,1';
+  const metric = ['--metric', 'h = 0.3'];
+  test.each<[string, string[], string[]]>([
+    ['no subcommand', [], ['subcommand']],
+    ['an unknown subcommand', ['adpat'], ["did you mean 'adapt'?"]],
+    ['an unknown option', ['adapt', '--case', 'iso2d', '--colour', 'red'], ['--colour', 'pillowmesh adapt --help']],
+    ['an option that is not there yet', ['adapt', '--case', 'iso2d', '--effort', 'best'], ['--effort']],
+    ['an unknown method', ['adapt', '--case', 'iso2d', '--method', 'magic'], ['--method', 'paper', "'magic'"]],
+    ['an unknown smoothing', ['adapt', '--case', 'iso2d', '--smooth', 'often'], ['none, end, between', "'often'"]],
+    ['a threshold that is no number', ['adapt', '--case', 'iso2d', '--threshold', 'x'], ['--threshold', "'x'"]],
+    ['dice 0', ['adapt', '--case', 'iso2d', '--dice', '0'], ['--dice', "'0'"]],
+    ['no metric', ['adapt', grid], ['--metric', '--case NAME']],
+    ['no mesh', ['adapt', ...metric], ['a mesh is missing']],
+    ['metric and case', ['adapt', grid, ...metric, '--case', 'iso2d'], ['exclude each other']],
+    ['an unknown case', ['measure', '--case', 'isod2d'], ["no case 'isod2d'", "did you mean 'iso2d'?", 'circle2d']],
+    ['a case of another dimension', ['measure', 'grid:2,2,2:0,1,0,1,0,1', '--case', 'iso2d'], ['2-dimensional']],
+    ['a malformed formula', ['measure', grid, '--metric', 'h = 0.1 + * x'], ['column 11']],
+    ['a malformed grid', ['measure', 'grid:2,2:0,1,0', ...metric], ['grid']],
+    ['a size scale of 0', ['measure', '--case', 'iso2d', '--size-scale', '0'], ['--size-scale']],
+    ['an unknown ending', ['convert', grid, 'a.stl'], ["'.stl'", '.vtu']],
+    ['an output folder that is not there', ['convert', grid, 'none/a.vtu'], ['none/a.vtu', 'no folder']],
+    ['a binary .mesh', ['convert', grid, 'a.mesh', '--binary'], ['.meshb']],
+    ['an unknown Gmsh version', ['convert', grid, 'a.msh', '--gmsh-version', '3'], ['2.2 or 4.1']],
+    ['an argument too many', ['convert', grid, 'a.msh', 'b.msh'], ['b.msh']],
+  ])('%s', (_name, args, parts) => refused(2, args, ...parts));
+
+  test('the output is never the input', () => {
+    ok('convert', grid, file('same.msh'));
+    const before = readFileSync(file('same.msh'), 'utf8');
+    refused(2, ['convert', file('same.msh'), file('same.msh')], 'is the input file');
+    refused(2, ['adapt', file('same.msh'), ...metric, '-o', `${folder}/./same.msh`], 'is the input file');
+    refused(2, ['measure', file('same.msh'), ...metric, '--report', file('same.msh')], 'is the input file');
+    expect(readFileSync(file('same.msh'), 'utf8')).toBe(before);
+  });
+});
+
+describe('bad input has exit status 3 and one sentence with file, place and reason', () => {
+  const metric = ['--metric', 'h = 0.3'];
+  test('quads mixed with triangles', () => {
+    refused(3, ['adapt', data('mixed_tri_quad_v2.msh'), ...metric], 'mixed_tri_quad_v2.msh, line 95', '17 triangles');
+  });
+
+  test('a file that is not there, and a folder', () => {
+    refused(3, ['measure', 'none.msh', ...metric], 'none.msh: cannot be read');
+    refused(3, ['measure', `${folder}/../`, ...metric], 'no ending');
+  });
+
+  test.each<[string, (text: string) => string, string[]]>([
+    ['truncated', (text) => text.slice(0, text.length / 2), ['line', 'truncated']],
+    ['empty', () => '', ['empty']],
+    ['inverted', (text) => text.replace(/^(100 3 .*) (\d+) (\d+) (\d+) (\d+)$/m, '$1 $5 $4 $3 $2'), ['line']],
+    ['degenerate', (text) => text.replace(/^(100 3 .*) (\d+) (\d+) (\d+) (\d+)$/m, '$1 $2 $3 $4 $2'), ['line', 'twice']],
+    ['with a vertex out of range', (text) => text.replace(/^(100 3 .*) (\d+)$/m, '$1 9999'), ['line', 'node 9999']],
+    ['with a coordinate that is no number', (text) => text.replace('\n7 ', '\n7 nan '), ['line']],
+    ['with a count that lies', (text) => text.replace('$Nodes\n', '$Nodes\n99999999'), ['line', 'promises']],
+  ])('a file that is %s', (name, change, parts) => {
+    const path = file(`${name.replaceAll(' ', '_')}.msh`);
+    const text = readFileSync(data('lshape_v2.msh'), 'utf8');
+    const changed = change(text);
+    expect(changed).not.toBe(text);
+    writeFileSync(path, changed);
+    refused(3, ['adapt', path, ...metric, '-o', file('never.vtu')], path, ...parts);
+    expect(existsSync(file('never.vtu'))).toBe(false);
+  });
+
+  test('a hanging node', () => {
+    const path = file('hanging.mesh');
+    const points = '0 0 0\n1 0 0\n2 0 0\n1 .5 0\n2 .5 0\n1 1 0\n2 1 0\n0 1 0\n';
+    const quads = '1 2 6 8 0\n2 3 5 4 0\n4 5 7 6 0\n';
+    writeFileSync(path, `MeshVersionFormatted 2\nDimension 2\nVertices\n8\n${points}Quadrilaterals\n3\n${quads}End\n`);
+    refused(3, ['measure', path, ...metric], path, 'hang');
+  });
+
+  test('a metric that is not positive somewhere', () => {
+    refused(3, ['adapt', 'grid:4,4:0,1,0,1', '--metric', 'h = x - 0.5', '-o', file('never.vtu')]);
+    expect(existsSync(file('never.vtu'))).toBe(false);
+  });
+});
+
+describe('measure', () => {
+  test('prints the paper\'s initial row of case 1', () => {
+    expect(ok('measure', '--case', 'iso2d')).toMatch(/edge length l +142 +1 +4\.205 +20 +1\.042/);
+  });
+
+  test('writes the same numbers as JSON to a file and to stdout', () => {
+    const table = ok('measure', '--case', 'aniso2d', '--report', file('report.json'));
+    expect(table).toContain('63 quads');
+    const written = JSON.parse(readFileSync(file('report.json'), 'utf8')) as Report;
+    expect(written.mesh).toEqual({ dim: 2, vertices: 80, edges: 142, cells: 63 });
+    expect(written.valid).toBe(true);
+    expect(written.seconds.total).toBeGreaterThan(0);
+    expect(written.peak_memory_bytes).toBeGreaterThan(1e6);
+    expect(report('measure', '--case', 'aniso2d').edge_length).toEqual(written.edge_length);
+  });
+
+  test('--size-scale 2 halves every length', () => {
+    const one = report('measure', '--case', 'iso2d');
+    const two = report('measure', '--case', 'iso2d', '--size-scale', '2');
+    expect(two.edge_length.max).toBeCloseTo(one.edge_length.max / 2, 9);
+    expect(two.complexity).toBeCloseTo(one.complexity / 4, 6);
+  });
+
+  test('takes hexahedra', () => {
+    expect(report('measure', 'grid:2,2,2:0,1,0,1,0,1', '--metric', 'h = 0.5').mesh.cells).toBe(8);
+  });
+});
+
+describe('convert', () => {
+  test.each(['a.mesh', 'a.meshb', 'a.msh', 'a.vtk', 'a.vtu'])('keeps the groups of the boundary by way of %s', (name) => {
+    ok('convert', data('lshape_v4.msh'), file(name));
+    ok('convert', file(name), file('back.vtu'));
+    expect(vtu(file('back.vtu'))).toEqual({ quads: 108, lines: { 2: 10, 3: 34 } });
+  });
+
+  test('writes the variant that is asked for', () => {
+    const start = (name: string, ...options: string[]) => {
+      ok('convert', data('lshape_v4.msh'), file(name), ...options);
+      return readFileSync(file(name), 'latin1').slice(0, 25);
+    };
+    expect(start('v.msh')).toContain('4.1 0 8');
+    expect(start('v.msh', '--binary')).toContain('4.1 1 8');
+    expect(start('v.msh', '--gmsh-version', '2.2')).toContain('2.2 0 8');
+    expect(start('v.msh', '--gmsh-version', '2.2', '--binary')).toContain('2.2 1 8');
+  });
+
+  test('gives the same bytes each time', () => {
+    ok('convert', data('plate_hole_v4.msh'), file('one.vtu'));
+    ok('convert', data('plate_hole_v4.msh'), file('two.vtu'));
+    expect(readFileSync(file('two.vtu'))).toEqual(readFileSync(file('one.vtu')));
+  });
+});
+
+describe('adapt', () => {
+  test('refines a Gmsh file to a metric: valid, groups kept, table and report', () => {
+    const metric = 'h = 0.03 + 0.1*abs(x)';
+    const out = ok('adapt', data('lshape_v2.msh'), '--metric', metric, '-o', file('out.vtu'), '--report', file('r.json'));
+    expect(out).toContain('valid: conforming');
+    expect(out).toMatch(/edge length l +initial +238 /);
+    expect(out).toMatch(/time \d+\.\d\d s/);
+    const done = JSON.parse(readFileSync(file('r.json'), 'utf8')) as Report;
+    expect(done.valid).toBe(true);
+    expect(done.operations.layers).toBeGreaterThan(0);
+    expect(done.seconds.total).toBeGreaterThan(0);
+    const { quads, lines } = vtu(file('out.vtu'));
+    expect(quads).toBe(done.mesh.cells);
+    expect(quads).toBeGreaterThan(108);
+    expect(Object.keys(lines)).toEqual(['2', '3']);
+    expect(lines[2]).toBeGreaterThanOrEqual(10);
+    expect(report('measure', file('out.vtu'), '--metric', metric).edge_length).toEqual(done.edge_length);
+  });
+
+  test('prints nothing but JSON with --report -, and nothing at all with --quiet', () => {
+    expect(report('adapt', '--case', 'aniso2d').valid).toBe(true);
+    expect(ok('adapt', '--case', 'aniso2d', '--quiet')).toBe('');
+  });
+
+  test('--steps writes the mesh after each iteration, the first as given and the last as the result', () => {
+    ok('adapt', '--case', 'iso2d', '--steps', file('steps'), '-o', file('last.vtu'));
+    const names = readdirSync(file('steps')).sort();
+    expect(names[0]).toBe('step-000.vtu');
+    expect(names.length).toBeGreaterThan(2);
+    const counts = names.map((name) => vtu(join(file('steps'), name)).quads);
+    expect(counts[0]).toBe(63);
+    expect([...counts].sort((a, b) => a - b)).toEqual(counts);
+    expect(readFileSync(join(file('steps'), names.at(-1) ?? ''))).toEqual(readFileSync(file('last.vtu')));
+    for (const name of names) expect(ok('measure', join(file('steps'), name), '--case', 'iso2d')).toContain('valid:');
+  });
+
+  test('a limit that stops the run gives exit status 1 and a valid mesh', () => {
+    const done = pillowmesh('adapt', '--case', 'iso2d', '--max-cells', '300', '-o', file('limited.vtu'));
+    expect(done.status).toBe(1);
+    expect(done.err).toMatch(/^pillowmesh: .*300 cells.*\n$/);
+    const limited = report('measure', file('limited.vtu'), '--case', 'iso2d');
+    expect(limited.valid).toBe(true);
+    expect(limited.mesh.cells).toBeLessThanOrEqual(300);
+  });
+
+  test('the options of the method are heard', () => {
+    const cells = (...options: string[]) => report('adapt', '--case', 'iso2d', '--smooth', 'none', ...options).mesh.cells;
+    const plain = cells();
+    expect(cells('--threshold', '4')).toBeLessThan(plain);
+    expect(cells('--augment', '3')).not.toBe(plain);
+    expect(cells('--dice', '2') % 4).toBe(0);
+    expect(cells('--method', 'paper')).toBe(plain);
+  });
+
+  test('a failed run leaves an existing output as it was', () => {
+    writeFileSync(file('kept.vtu'), 'precious');
+    pillowmesh('adapt', data('mixed_tri_quad_v2.msh'), '--metric', 'h = 1', '-o', file('kept.vtu'));
+    expect(readFileSync(file('kept.vtu'), 'utf8')).toBe('precious');
+  });
+
+  test('Ctrl-C stops with exit status 1, one sentence and a valid mesh', async () => {
+    const args = ['adapt', '--case', 'iso2d', '--size-scale', '0.02', '-o', file('stopped.vtu')];
+    const child = spawn(command, args, { cwd: folder });
+    let err = '';
+    child.stderr.on('data', (text: Buffer) => (err += text.toString()));
+    const ended = new Promise<number | null>((resolve) => child.on('exit', (status) => resolve(status)));
+    await sleep(700);
+    expect(child.exitCode, 'the run should still be going').toBeNull();
+    child.kill('SIGINT');
+    expect(await ended).toBe(1);
+    expect(err).toMatch(/^pillowmesh: .*valid.*\n$/);
+    expect(report('measure', file('stopped.vtu'), '--metric', 'h = 1').valid).toBe(true);
+    expect(readdirSync(folder).filter((name) => name.includes('.part'))).toEqual([]);
+  });
+
+  const terminals = spawnSync('script', ['--version']).status === 0;
+  test.skipIf(!terminals)('a progress line is drawn on a terminal, and cleared', () => {
+    const line = `${command} adapt --case iso2d`;
+    const onTerminal = (options: string) => spawnSync('script', ['-qec', line + options, '/dev/null'], { encoding: 'utf8' });
+    const shown = onTerminal('');
+    expect(shown.stdout).toMatch(/\r +\d+ % .* cells\x1b\[K/);
+    expect(shown.stdout).toContain('\r\x1b[K');
+    expect(onTerminal(' --quiet').stdout).toBe('');
+  });
+});
