@@ -94,7 +94,7 @@ inline double mean_length(double a, double b) {
 }
 /// What keeps metric volume from being a free good: without it cells where the mesh is too dense are not spread.
 /// Measured on the paper's cases 1 to 3 (docs/algorithm.md): 0 costs shape, 1 costs size.
-inline constexpr double size_weight = 0.43;
+inline constexpr double size_weight = 0.45;
 
 /// The energy of a corner with edge vectors e, whose axes form a frame of the given sign (Cell::corner_sign).
 /// Infinite when the corner is degenerate or inside out.
