@@ -24,25 +24,17 @@ export async function buildSite(): Promise<void> {
   await build({ configFile: join(root, 'web', 'vite.config.ts'), logLevel: 'error', build: { outDir: site, emptyOutDir: true } });
 }
 
-/** Files of the built page, with sizes in bytes. */
-export function siteFile(pattern: RegExp): string {
-  const html = readFileSync(join(site, 'index.html'), 'utf8');
-  const found = pattern.exec(html);
-  if (!found) throw new Error(`the page does not name ${pattern}`);
-  return join(site, found[0]);
-}
-
 export interface Serving {
   address: string;
   close(): Promise<void>;
 }
 
-/** Serves the built page below a folder, as any static host does. `hide` answers 404 for matching paths. */
-export function serveSite(hide?: RegExp): Promise<Serving> {
+/** Serves the built page below a folder, as any static host does. Paths for which `hide` is true are answered with 404. */
+export function serveSite(hide?: (path: string) => boolean): Promise<Serving> {
   const server: Server = createServer((request, response) => {
     const path = decodeURIComponent(new URL(request.url ?? '/', 'http://localhost').pathname).replace(/^\/mesh\//, '/');
     const file = normalize(join(site, path.endsWith('/') ? `${path}index.html` : path));
-    if (!file.startsWith(site) || hide?.test(path) || !existsSync(file) || !statSync(file).isFile()) {
+    if (!file.startsWith(site) || hide?.(path) || !existsSync(file) || !statSync(file).isFile()) {
       response.writeHead(404).end('not found');
       return;
     }

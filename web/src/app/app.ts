@@ -201,15 +201,15 @@ export class App {
     this.player.pace = pace;
     this.picture.setLook(this.settings);
     if (mesh.kind === 'file' && !this.file) {
+      await this.open({ kind: 'case', name: 'iso2d' }, '');
       this.messages.show({
         kind: 'error',
         text: `This link belongs to the mesh file “${mesh.name}”, which is not part of it. Drop that file here to go on.`,
       });
-      await this.open({ kind: 'case', name: 'iso2d' }, '');
       return;
     }
     const done = await this.open(mesh, formula, true);
-    if (!done && this.initial === nothing) await this.open({ kind: 'case', name: 'iso2d' }, '');
+    if (!done && this.initial === nothing) await this.open({ kind: 'case', name: 'iso2d' }, '', true);
     else if (done && event !== null && event > 0) {
       this.awaited = event;
       await this.start(false);
@@ -241,7 +241,7 @@ export class App {
       this.refresh();
       return false;
     }
-    this.messages.clear();
+    if (!fromLink) this.messages.clear();
     this.settings.mesh = choice;
     this.settings.formula = text === found?.formula ? '' : text;
     if (!fromLink) this.settings.camera = null;

@@ -6,6 +6,7 @@ function usesKey(target: EventTarget | null, key: string): boolean {
   if (target.closest('dialog')) return true;
   if (target instanceof HTMLTextAreaElement || target.isContentEditable) return true;
   if (target instanceof HTMLInputElement && target.type === 'range') return false;
+  if (target instanceof HTMLInputElement && target.type === 'radio') return key === ' ' || key.startsWith('Arrow');
   if (target instanceof HTMLInputElement || target instanceof HTMLSelectElement) return true;
   return key === ' ' && target.closest('button, summary, a') !== null;
 }

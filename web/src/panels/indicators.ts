@@ -73,7 +73,7 @@ export function makeIndicators(): Indicators {
   const shapePlot = makeHistogram({ label: 'shape eta', logarithmic: false, low: 0, high: 1, ticks: [0, 0.25, 0.5, 0.75, 1] });
   const element = h(
     'aside',
-    { class: 'panel numbers', 'aria-label': 'Indicators' },
+    { class: 'panel numbers', 'aria-label': 'Indicators', tabindex: 0 },
     h('h2', {}, 'The mesh in numbers'),
     h('dl', { class: 'facts' }, cellCount.element, ideal.element, inRange.element, irregular.element),
     h('h3', {}, 'Metric edge length ', h('i', {}, 'l'), h('span', { class: 'aim' }, 'aim: 1')),
