@@ -104,6 +104,7 @@ TEST_CASE("A wrong Medit file is refused with its line and the reason") {
       {"1 0 0\n", "1 x 0\n", "line 8", "expected a coordinate, found 'x'"},
       {"1 0 0\n", "1 nan 0\n", "line 8", "not a finite number"},
       {"1 0 0\n", "1 1e999 0\n", "line 8", "not a finite number"},
+      {"1 0 0\n", "1 -1e200 0\n", "a.mesh", "vertex 2 has a coordinate that is not a number of at most 1e100"},
       {"1 0 0\n", "1 0 0 0\n", "line 12", "expected a keyword, found '0'"},
       {"1 2 5 6 10", "1 2 5 99 10", "line 16", "names vertex 99, but the file has 6"},
       {"1 2 5 6 10", "0 2 5 6 10", "line 16", "names vertex 0"},

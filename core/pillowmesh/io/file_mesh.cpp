@@ -46,6 +46,17 @@ Status check_vertices(const FileMesh& file, const Elements<N>& elements, const c
   return {};
 }
 
+/// Coordinates whose products do not overflow.
+Status check_coordinates(const FileMesh& file, std::string_view name) {
+  for (std::size_t i = 0; i < file.points.size(); ++i)
+    for (int d = 0; d < 3; ++d)
+      if (!(std::fabs(file.points[i][d]) <= 1e100))
+        return Status::bad_input(place(name, 0) + "vertex " +
+                                 std::to_string(static_cast<std::int64_t>(i) + file.first_vertex) +
+                                 " has a coordinate that is not a number of at most 1e100");
+  return {};
+}
+
 /// Only quads, or only hexahedra with quads on the boundary.
 Status check_kinds(const FileMesh& file, std::string_view name) {
   const bool has_hexes = !file.hexes.vertices.empty();
@@ -179,6 +190,7 @@ void add_foreign(FileMesh& mesh, std::string_view what, std::int64_t line) {
 
 Expected<AnyMesh> finish(FileMesh file, std::string_view name) {
   if (Status s = check_kinds(file, name); !s.ok()) return s;
+  if (Status s = check_coordinates(file, name); !s.ok()) return s;
   if (Status s = check_vertices(file, file.quads, "quad", name); !s.ok()) return s;
   if (Status s = check_vertices(file, file.hexes, "hexahedron", name); !s.ok()) return s;
   if (Status s = check_vertices(file, file.lines, "edge", name); !s.ok()) return s;

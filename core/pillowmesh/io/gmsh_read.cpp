@@ -128,8 +128,9 @@ class GmshReader {
       const std::string_view word = in_.word();
       const std::string expected = "$End" + std::string(section_.substr(1));
       if (in_.failed() || word == expected) return;
-      in_.fail(word.empty() ? "the file ends before " + quoted(expected) + "; it is truncated"
-                            : "expected " + quoted(expected) + ", found " + quoted(word) + "; a count before it is wrong");
+      in_.fail(word.empty()
+                   ? "the file ends before " + quoted(expected) + "; it is truncated"
+                   : "expected " + quoted(expected) + ", found " + quoted(word) + "; a count before it is wrong");
     });
   }
 
