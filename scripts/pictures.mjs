@@ -8,7 +8,13 @@ import { main, root } from './run.mjs';
 
 /** What each picture shows: the state as a link, the size in CSS pixels, and which part of the page. */
 const pictures = [
-  { name: 'hero', hash: 'case=circle2d&smooth=between&event=last&colour=shape&hide=ellipses', width: 1360, height: 850, scheme: 'light' },
+  {
+    name: 'hero',
+    hash: 'case=circle2d&smooth=between&event=last&colour=shape&hide=ellipses',
+    width: 1360,
+    height: 850,
+    scheme: 'light',
+  },
   { name: 'page-dark', hash: 'case=circle2d&event=70&hide=ellipses', width: 1360, height: 850, scheme: 'dark' },
   ...['tags', 'layer', 'shrink', 'connect'].map((name, i) => ({
     name: `step-${i + 1}-${name}`,
@@ -29,22 +35,36 @@ const pictures = [
 ];
 
 const browserArguments = [
-  '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist',
-  '--disable-background-networking', '--disable-component-update', '--disable-sync', '--disable-quic', '--no-first-run',
+  '--no-sandbox',
+  '--use-angle=swiftshader',
+  '--enable-unsafe-swiftshader',
+  '--ignore-gpu-blocklist',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
+  '--disable-quic',
+  '--no-first-run',
 ];
 
 /** Waits until the page has computed and measured what its link asks for. */
 async function settle(page) {
-  await page.waitForFunction(() => / in [\d.]+ s/.test(document.querySelector('.status')?.textContent ?? ''), null, { timeout: 120_000 });
+  await page.waitForFunction(() => / in [\d.]+ s/.test(document.querySelector('.status')?.textContent ?? ''), null, {
+    timeout: 120_000,
+  });
   const cells = () => page.locator('.facts dd').first().innerText();
-  for (let before = ''; before !== (await cells()); ) {
+  for (let before = ''; before !== (await cells());) {
     before = await cells();
     await page.waitForTimeout(900);
   }
 }
 
 async function take(browser, address, { name, hash, width, height, scheme, part }) {
-  const page = await browser.newPage({ viewport: { width, height }, colorScheme: scheme, reducedMotion: 'reduce', deviceScaleFactor: 1.5 });
+  const page = await browser.newPage({
+    viewport: { width, height },
+    colorScheme: scheme,
+    reducedMotion: 'reduce',
+    deviceScaleFactor: 1.5,
+  });
   await page.goto(`${address}#${hash.replace('event=last', 'event=1000000')}`);
   await settle(page);
   const target = part ? page.locator(part) : page;
@@ -55,14 +75,22 @@ async function take(browser, address, { name, hash, width, height, scheme, part 
 
 await main(async () => {
   const wanted = process.argv.slice(2);
-  const site = { configFile: join(root, 'web', 'vite.config.ts'), logLevel: 'error', build: { outDir: join(root, 'build', 'site'), emptyOutDir: true } };
+  const site = {
+    configFile: join(root, 'web', 'vite.config.ts'),
+    logLevel: 'error',
+    build: { outDir: join(root, 'build', 'site'), emptyOutDir: true },
+  };
   mkdirSync(join(root, 'docs', 'images'), { recursive: true });
   await build(site);
   const server = await preview({ ...site, preview: { port: 0, host: '127.0.0.1' } });
-  const browser = await chromium.launch({ executablePath: process.env.PILLOWMESH_CHROMIUM || '/usr/bin/chromium', args: browserArguments });
+  const browser = await chromium.launch({
+    executablePath: process.env.PILLOWMESH_CHROMIUM || '/usr/bin/chromium',
+    args: browserArguments,
+  });
   try {
     for (const picture of pictures)
-      if (wanted.length === 0 || wanted.includes(picture.name)) await take(browser, server.resolvedUrls.local[0], picture);
+      if (wanted.length === 0 || wanted.includes(picture.name))
+        await take(browser, server.resolvedUrls.local[0], picture);
   } finally {
     await browser.close();
     await server.close();

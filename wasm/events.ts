@@ -44,8 +44,19 @@ export function decodeEvents(dim: number, ints: Int32Array, doubles: Float64Arra
   const takeInts = (count: number): Int32Array => ints.subarray(i, (i += count));
   const takeDoubles = (count: number): Float64Array => doubles.subarray(d, (d += count));
   while (i < ints.length) {
-    const [kind, iteration, edges, cells, hull, verticesBefore, verticesAfter, cellsBefore, cellsAfter, moved, changed] =
-      takeInts(headerSize) as unknown as number[];
+    const [
+      kind,
+      iteration,
+      edges,
+      cells,
+      hull,
+      verticesBefore,
+      verticesAfter,
+      cellsBefore,
+      cellsAfter,
+      moved,
+      changed,
+    ] = takeInts(headerSize) as unknown as number[];
     const value = takeDoubles(1)[0];
     events.push({
       kind: eventKinds[kind],

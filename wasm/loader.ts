@@ -127,7 +127,10 @@ export async function loadCore(source: CoreSource): Promise<Core> {
   const holder: { memory?: WebAssembly.Memory } = {};
   let instance: WebAssembly.Instance;
   try {
-    instance = await WebAssembly.instantiate(module, imports(() => holder.memory!));
+    instance = await WebAssembly.instantiate(
+      module,
+      imports(() => holder.memory!),
+    );
   } catch (error) {
     throw new LoadError('broken', `The core does not fit its loader: ${(error as Error).message}`);
   }

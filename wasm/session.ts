@@ -28,9 +28,7 @@ export interface Case {
 
 /** What to adapt. */
 export type MeshSource =
-  | { kind: 'case'; name: string }
-  | { kind: 'grid'; spec: string }
-  | { kind: 'file'; name: string; bytes: Uint8Array };
+  { kind: 'case'; name: string } | { kind: 'grid'; spec: string } | { kind: 'file'; name: string; bytes: Uint8Array };
 
 export interface MetricSpec {
   formula: string;

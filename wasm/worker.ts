@@ -47,7 +47,9 @@ function toFailure(error: unknown): Failure {
 function transferables(result: unknown): Transferable[] {
   if (ArrayBuffer.isView(result)) return [result.buffer as ArrayBuffer];
   if (result === null || typeof result !== 'object') return [];
-  return Object.values(result).filter((v) => ArrayBuffer.isView(v)).map((v) => v.buffer as ArrayBuffer);
+  return Object.values(result)
+    .filter((v) => ArrayBuffer.isView(v))
+    .map((v) => v.buffer as ArrayBuffer);
 }
 
 /** Answers requests. `post` sends a reply with its transferables. */

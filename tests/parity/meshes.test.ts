@@ -24,12 +24,19 @@ const flags = (options: Options): string[] => Object.entries(options).flatMap(([
 /** Runs the command; a run that ends at a limit (status 1) counts: its mesh is compared as well. */
 function adaptNatively(args: string[], name: string): { file: Buffer; report: Report } {
   const [out, report] = [join(folder, name), join(folder, 'report.json')];
-  const { status, stderr } = spawnSync(command, ['adapt', ...args, '-q', '-o', out, '--report', report], { encoding: 'utf8' });
+  const { status, stderr } = spawnSync(command, ['adapt', ...args, '-q', '-o', out, '--report', report], {
+    encoding: 'utf8',
+  });
   if (status !== 0 && status !== 1) throw new Error(`status ${status}: ${stderr}`);
   return { file: readFileSync(out), report: JSON.parse(readFileSync(report, 'utf8')) as Report };
 }
 
-function adaptInWasm(source: Parameters<typeof open>[1], formula: string | null, options: Options, name: string): { file: Uint8Array; report: Report } {
+function adaptInWasm(
+  source: Parameters<typeof open>[1],
+  formula: string | null,
+  options: Options,
+  name: string,
+): { file: Uint8Array; report: Report } {
   const session = open(core, source, formula === null ? undefined : { formula }, options);
   runToEnd(session);
   const result = { file: session.write(name), report: reportOf(session) };

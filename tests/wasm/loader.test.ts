@@ -45,7 +45,17 @@ describe('the loader', () => {
 describe('the module', () => {
   test('imports nothing but a clock and what ends a program', () => {
     const names = WebAssembly.Module.imports(new WebAssembly.Module(moduleBytes())).map(({ name }) => name);
-    const known = ['clock_time_get', 'proc_exit', 'environ_get', 'environ_sizes_get', 'fd_write', 'fd_read', 'fd_seek', 'fd_close', 'emscripten_notify_memory_growth'];
+    const known = [
+      'clock_time_get',
+      'proc_exit',
+      'environ_get',
+      'environ_sizes_get',
+      'fd_write',
+      'fd_read',
+      'fd_seek',
+      'fd_close',
+      'emscripten_notify_memory_growth',
+    ];
     expect(names.filter((name) => !known.includes(name))).toEqual([]);
   });
 

@@ -110,7 +110,9 @@ describe('files', () => {
       const bytes = session.write(name);
       const again = open(core, { kind: 'file', name, bytes }, { formula: 'h = 1' });
       expect(again.mesh().cells.length).toBe(reportOf(session).mesh.cells * 4);
-      expect(again.write('b.vtu')).toEqual(open(core, { kind: 'file', name: 'b.vtu', bytes: again.write('b.vtu') }).write('b.vtu'));
+      expect(again.write('b.vtu')).toEqual(
+        open(core, { kind: 'file', name: 'b.vtu', bytes: again.write('b.vtu') }).write('b.vtu'),
+      );
       const points = session.mesh().points;
       expect(new Set(again.mesh().points)).toEqual(new Set(points));
       session.destroy();

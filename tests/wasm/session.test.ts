@@ -95,9 +95,13 @@ describe('what is refused is told in a sentence', () => {
     const session = new Session(core);
     const file = (name: string, text: string) =>
       refusal(() => session.load({ kind: 'file', name, bytes: new TextEncoder().encode(text) }));
-    expect(file('empty.mesh', '')).toMatchObject({ status: 'bad_input', message: expect.stringContaining('empty.mesh') });
+    expect(file('empty.mesh', '')).toMatchObject({
+      status: 'bad_input',
+      message: expect.stringContaining('empty.mesh'),
+    });
     expect(file('odd.xyz', 'x')).toMatchObject({ message: expect.stringContaining('odd.xyz') });
-    const triangle = 'MeshVersionFormatted 2\nDimension 2\nVertices\n3\n0 0 0\n1 0 0\n0 1 0\nTriangles\n1\n1 2 3 0\nEnd\n';
+    const triangle =
+      'MeshVersionFormatted 2\nDimension 2\nVertices\n3\n0 0 0\n1 0 0\n0 1 0\nTriangles\n1\n1 2 3 0\nEnd\n';
     expect(file('tri.mesh', triangle).message).toMatch(/tri\.mesh.*riangle/s);
     const broken = 'MeshVersionFormatted 2\nDimension 2\nVertices\n2\n0 0 0\n1 zero 0\nEnd\n';
     expect(file('broken.mesh', broken).message).toMatch(/broken\.mesh, line 6/);

@@ -73,8 +73,13 @@ describe('the worker', () => {
   test('keeps mesh and metric when it refuses others', async () => {
     const bench = new Bench();
     const mesh = await bench.call('open', iso2d);
-    await expect(bench.call('open', { source: { kind: 'grid', spec: 'grid:2,2:0,1,0,1' }, metric: { formula: 'h = ' } })).rejects.toMatchObject({ kind: 'refused' });
-    await expect(bench.call('metric', { formula: 'h = q' })).rejects.toMatchObject({ kind: 'refused', status: 'usage' });
+    await expect(
+      bench.call('open', { source: { kind: 'grid', spec: 'grid:2,2:0,1,0,1' }, metric: { formula: 'h = ' } }),
+    ).rejects.toMatchObject({ kind: 'refused' });
+    await expect(bench.call('metric', { formula: 'h = q' })).rejects.toMatchObject({
+      kind: 'refused',
+      status: 'usage',
+    });
     const shapes = await bench.call('measure', { points: mesh.points, cells: mesh.cells, lengths: true });
     expect(shapes.shapes.length).toBe(63);
     expect(shapes.lengths.length).toBe(142);

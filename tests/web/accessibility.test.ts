@@ -20,13 +20,20 @@ afterAll(async () => {
 for (const colorScheme of ['light', 'dark'] as const)
   for (const width of [1280, 360])
     test(`axe finds nothing to complain of, ${colorScheme}, ${width} pixels wide`, async () => {
-      const context = await browser.newContext({ colorScheme, viewport: { width, height: 800 }, reducedMotion: 'reduce', bypassCSP: true });
+      const context = await browser.newContext({
+        colorScheme,
+        viewport: { width, height: 800 },
+        reducedMotion: 'reduce',
+        bypassCSP: true,
+      });
       const page = await context.newPage();
       await page.goto(`${site.address}#case=iso2d&event=3&colour=shape`);
       await expect.poll(() => page.locator('.counter').innerText(), { timeout: 30_000 }).toMatch(/^3 \/ \d+$/);
       await page.evaluate(axe);
       const violations = await page.evaluate(async () => {
-        const { axe } = window as unknown as { axe: { run(): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> } };
+        const { axe } = window as unknown as {
+          axe: { run(): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> };
+        };
         return (await axe.run()).violations.map(({ id, nodes }) => `${id}: ${nodes.map((n) => n.html).join(' ')}`);
       });
       expect(violations).toEqual([]);

@@ -27,7 +27,11 @@ afterEach(async () => {
 /** A new visitor at the page; what the browser complains of is kept. */
 async function visit(hash = '', options: BrowserContextOptions = {}): Promise<Page> {
   await page?.context().close();
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: 'reduce', ...options });
+  const context = await browser.newContext({
+    viewport: { width: 1280, height: 800 },
+    reducedMotion: 'reduce',
+    ...options,
+  });
   page = await context.newPage();
   complaints = [];
   page.on('pageerror', (error) => complaints.push(error.message));
@@ -240,7 +244,9 @@ describe('own input', () => {
     await expect.poll(() => ours(0), eventually).toEqual(['142', '2.000', '2.000', '2.00', '0.000']);
     expect(await mistake.innerText()).toBe('');
     expect(await page!.locator('table.indicators .paper').count()).toBe(0); // the paper's rows are for its own metric
-    await expect.poll(() => new URLSearchParams(new URL(page!.url()).hash.slice(1)).get('metric'), eventually).toBe('h = 0.5');
+    await expect
+      .poll(() => new URLSearchParams(new URL(page!.url()).hash.slice(1)).get('metric'), eventually)
+      .toBe('h = 0.5');
   });
 
   test('a dropped mesh file is opened, adapted and saved', async () => {
@@ -276,7 +282,10 @@ describe('own input', () => {
 describe('saving', () => {
   async function save(format: string): Promise<{ name: string; bytes: Buffer }> {
     await page!.getByTitle('Save').click();
-    const [download] = await Promise.all([page!.waitForEvent('download'), page!.locator(`[data-format=${format}]`).click()]);
+    const [download] = await Promise.all([
+      page!.waitForEvent('download'),
+      page!.locator(`[data-format=${format}]`).click(),
+    ]);
     return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
   }
 
@@ -351,7 +360,13 @@ describe('mishaps', () => {
 describe('on every screen', () => {
   const screens = [
     { name: 'laptop-light', width: 1280, height: 800, colorScheme: 'light', hash: '#case=iso2d' },
-    { name: 'laptop-dark', width: 1440, height: 900, colorScheme: 'dark', hash: '#case=circle2d&event=70&colour=shape' },
+    {
+      name: 'laptop-dark',
+      width: 1440,
+      height: 900,
+      colorScheme: 'dark',
+      hash: '#case=circle2d&event=70&colour=shape',
+    },
     { name: 'tablet-dark', width: 834, height: 1000, colorScheme: 'dark', hash: '#case=iso2d&event=14' },
     { name: 'phone-light', width: 360, height: 740, colorScheme: 'light', hash: '#case=aniso2d&event=10' },
     { name: 'phone-small', width: 320, height: 600, colorScheme: 'dark', hash: '' },
@@ -370,7 +385,8 @@ describe('on every screen', () => {
 
   test('the theme follows the system until it is chosen', async () => {
     await visit('', { colorScheme: 'dark' });
-    const paper = (): Promise<string> => page!.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
+    const paper = (): Promise<string> =>
+      page!.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
     const dark = await paper();
     await page!.getByRole('button', { name: 'Theme' }).click();
     expect(await paper()).not.toBe(dark);

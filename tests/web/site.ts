@@ -21,7 +21,11 @@ const types: Record<string, string> = {
 
 /** Builds the page into build/site. */
 export async function buildSite(): Promise<void> {
-  await build({ configFile: join(root, 'web', 'vite.config.ts'), logLevel: 'error', build: { outDir: site, emptyOutDir: true } });
+  await build({
+    configFile: join(root, 'web', 'vite.config.ts'),
+    logLevel: 'error',
+    build: { outDir: site, emptyOutDir: true },
+  });
 }
 
 export interface Serving {

@@ -1,14 +1,14 @@
 // The page: settings, player, picture and panels, and what happens between them.
 import { LoadError } from '../../../wasm/loader.ts';
-import { CoreError, type Case, type MeshArrays, type MeshSource } from '../../../wasm/session.ts';
-import { makeHeader, saveFormats, type SaveFormat } from '../panels/header.ts';
+import { CoreError } from '../../../wasm/session.ts';
+import { makeHeader, type SaveFormat } from '../panels/header.ts';
 import { makeHelp } from '../panels/help.ts';
 import { makeIndicators } from '../panels/indicators.ts';
 import { makeMessages } from '../panels/messages.ts';
 import { makePictureTools } from '../panels/picture_tools.ts';
 import { makeSetup } from '../panels/setup.ts';
 import { makeTransport } from '../panels/transport.ts';
-import { captionOf, cellWord } from '../replay/caption.ts';
+import { captionOf } from '../replay/caption.ts';
 import { Player } from '../replay/player.ts';
 import { decodeSettings, encodeSettings } from '../state/permalink.ts';
 import { colourings, paces, type Mark, type MeshChoice, type Pace, type Settings } from '../state/settings.ts';
@@ -18,26 +18,30 @@ import { acceptDrops } from './drop.ts';
 import { listenToKeys } from './keyboard.ts';
 import { Picture } from './picture.ts';
 import { Refresher } from './refresher.ts';
-import { formulaFor } from './starting_formula.ts';
+import { RunControl } from './run_control.ts';
+import { saveShown } from './saving.ts';
+import { Subject, nothing } from './subject.ts';
 import { followTheme, toggleTheme } from './theme.ts';
+import { makeTicker } from './ticker.ts';
+import { legendOf, summaryOf } from './words.ts';
 import { Workshop } from './workshop.ts';
-
-const nothing: MeshArrays = { dim: 2, points: new Float64Array(0), cells: new Int32Array(0) };
 
 export class App {
   private settings: Settings = decodeSettings(location.hash);
-  private cases: readonly Case[] = [];
   private version = '';
-  private initial: MeshArrays = nothing;
-  /** Content of a mesh that came as a file. */
-  private file: Uint8Array | null = null;
-  private irregular: number | null = null;
-  /** Event to show as soon as it has been computed. */
-  private awaited: number | null = null;
 
   private readonly workshop = new Workshop();
+  private readonly subject = new Subject(this.workshop);
   private readonly player = new Player(nothing);
   private readonly picture = new Picture(this.player);
+  private readonly run = new RunControl(this.player, this.workshop, {
+    options: () => this.settings.options,
+    ready: () => !this.subject.empty,
+    showInitial: () => this.showInitial(false),
+    setStatus: (sentence) => this.setup.setStatus(sentence),
+    refresh: () => this.refresh(),
+    tell: (error) => this.tell(error),
+  });
   private readonly messages = makeMessages();
   private readonly indicators = makeIndicators();
   private readonly help = makeHelp(() => this.version);
@@ -47,8 +51,8 @@ export class App {
     fit: () => this.picture.fit(),
   });
   private readonly transport = makeTransport({
-    toggle: () => this.togglePlay(),
-    step: (direction) => this.step(direction),
+    toggle: () => this.run.togglePlay(),
+    step: (direction) => this.run.step(direction),
     stepIteration: (direction) => this.player.stepIteration(direction),
     seek: (index) => {
       this.player.pause();
@@ -63,19 +67,19 @@ export class App {
     changeFormula: debounce(300, (text: string) => void this.applyFormula(text)),
     changeOption: (name, value) => {
       this.settings.options[name] = value;
-      void this.forgetRun();
+      void this.run.forget();
     },
-    run: () => void this.start(true),
-    stop: () => void this.workshop.stop(),
+    run: () => void this.run.start('play'),
+    stop: () => void this.run.stop(),
   });
   private readonly start_ = h(
     'button',
-    { type: 'button', class: 'start', 'aria-label': 'Play', onclick: () => this.togglePlay() },
+    { type: 'button', class: 'start', 'aria-label': 'Play', onclick: () => this.run.togglePlay() },
     icon('play'),
   );
   private readonly measures = new Refresher(() => this.measure());
   private readonly ellipses = new Refresher(() =>
-    this.picture.refreshEllipses(this.initial, (points) => this.workshop.call('tensors', { points })),
+    this.picture.refreshEllipses(this.subject.initial, (points) => this.workshop.call('tensors', { points })),
   );
   private pictureLoaded: Promise<void> = Promise.resolve();
   private readonly rewriteLink = debounce(250, () => this.writeLink());
@@ -124,27 +128,13 @@ export class App {
       this.measures.request(player.playing ? 200 : 20);
       this.refresh();
     };
-    let last = 0;
-    const tick = (now: number): void => {
-      if (!player.playing) return;
-      player.tick(now - last);
-      last = now;
-      requestAnimationFrame(tick);
-    };
-    let wasPlaying = false;
+    const tick = makeTicker(player);
     player.onState = () => {
-      if (player.playing && !wasPlaying) {
-        last = performance.now();
-        requestAnimationFrame(tick);
-      }
-      wasPlaying = player.playing;
+      tick();
       this.refresh();
     };
-    workshop.onEvents = (events) => {
-      player.append(events);
-      this.showAwaited();
-    };
-    workshop.onCrash = (error) => this.messages.show({ kind: 'error', text: error.message, action: this.restartAction() });
+    workshop.onCrash = (error) =>
+      this.messages.show({ kind: 'error', text: error.message, action: this.restartAction() });
     this.picture.onPose = () => this.rewriteLink();
     followTheme(() => {
       this.picture.retheme();
@@ -152,12 +142,15 @@ export class App {
     });
     acceptDrops((file) => void this.openFile(file));
     addEventListener('hashchange', () => void this.followLink());
-    addEventListener('resize', debounce(100, () => this.refresh()));
+    addEventListener(
+      'resize',
+      debounce(100, () => this.refresh()),
+    );
     const mark = (name: Mark) => () => this.toggleMark(name);
     listenToKeys({
-      ' ': () => this.togglePlay(),
-      ArrowLeft: () => this.step(-1),
-      ArrowRight: () => this.step(1),
+      ' ': () => this.run.togglePlay(),
+      ArrowLeft: () => this.run.step(-1),
+      ArrowRight: () => this.run.step(1),
       'Shift+ArrowLeft': () => player.stepIteration(-1),
       'Shift+ArrowRight': () => player.stepIteration(1),
       Home: () => player.seek(0),
@@ -169,7 +162,8 @@ export class App {
       h: mark('hull'),
       b: mark('buffer'),
       m: mark('ellipses'),
-      c: () => this.change({ colouring: colourings[(colourings.indexOf(this.settings.colouring) + 1) % colourings.length] }),
+      c: () =>
+        this.change({ colouring: colourings[(colourings.indexOf(this.settings.colouring) + 1) % colourings.length] }),
       f: () => this.picture.fit(),
       o: () => this.setup.openFileDialog(),
       '?': () => this.help.showModal(),
@@ -184,7 +178,7 @@ export class App {
     try {
       const { version, cases } = await this.workshop.call('about', {});
       this.version = version;
-      this.cases = cases;
+      this.subject.cases = cases;
       this.setup.setCases(cases);
     } catch (error) {
       this.tell(error);
@@ -200,7 +194,7 @@ export class App {
     const { mesh, formula, event, pace } = this.settings;
     this.player.pace = pace;
     this.picture.setLook(this.settings);
-    if (mesh.kind === 'file' && !this.file) {
+    if (mesh.kind === 'file' && !this.subject.file) {
       await this.open({ kind: 'case', name: 'iso2d' }, '');
       this.messages.show({
         kind: 'error',
@@ -209,10 +203,9 @@ export class App {
       return;
     }
     const done = await this.open(mesh, formula, true);
-    if (!done && this.initial === nothing) await this.open({ kind: 'case', name: 'iso2d' }, '', true);
+    if (!done && this.subject.empty) await this.open({ kind: 'case', name: 'iso2d' }, '', true);
     else if (done && event !== null && event > 0) {
-      this.awaited = event;
-      await this.start(false);
+      await this.run.start({ show: event });
     }
   }
 
@@ -223,41 +216,28 @@ export class App {
     this.picture.pose = this.settings.camera;
   }
 
-  /** Opens a mesh with a metric (empty: the case's own, or one that suits the mesh). False when it was refused. */
+  /** Opens a mesh with a metric, see Subject.open. False when it was refused. */
   private async open(choice: MeshChoice, formula: string, fromLink = false): Promise<boolean> {
-    const found = choice.kind === 'case' ? this.cases.find((c) => c.name === choice.name) : undefined;
-    const source: MeshSource =
-      choice.kind === 'file' ? { kind: 'file', name: choice.name, bytes: this.file ?? new Uint8Array(0) } : choice;
-    let mesh: MeshArrays;
-    let text = formula || found?.formula || '';
+    let text: string;
     try {
-      mesh = await this.workshop.open(source, text ? { formula: text } : undefined);
-      if (!text) {
-        text = formulaFor(mesh);
-        await this.workshop.setMetric(text);
-      }
+      text = await this.subject.open(choice, formula);
     } catch (error) {
       this.tell(error);
       this.refresh();
       return false;
     }
-    if (!fromLink) this.messages.clear();
+    if (!fromLink) {
+      this.messages.clear();
+      this.settings.camera = null;
+    }
     this.settings.mesh = choice;
-    this.settings.formula = text === found?.formula ? '' : text;
-    if (!fromLink) this.settings.camera = null;
     this.setup.formula.setText(text);
-    this.setup.formula.setError(null);
-    this.initial = mesh;
-    this.indicators.setCase(choice.kind === 'case' && this.settings.formula === '' ? choice.name : null);
-    this.showInitial(true);
-    await this.metricChanged();
+    this.takeFormula(text, true);
     return true;
   }
 
-  private async openFile(file: File): Promise<void> {
-    const before = this.file;
-    this.file = new Uint8Array(await file.arrayBuffer());
-    if (!(await this.open({ kind: 'file', name: file.name }, ''))) this.file = before;
+  private openFile(file: File): Promise<void> {
+    return this.subject.openFile(file, (choice) => this.open(choice, ''));
   }
 
   private async applyFormula(text: string): Promise<void> {
@@ -268,107 +248,29 @@ export class App {
       else this.tell(error);
       return;
     }
-    if (text !== this.setup.formula.text()) return; // typed on meanwhile
-    this.setup.formula.setError(null);
-    const { mesh } = this.settings;
-    const own = mesh.kind === 'case' ? this.cases.find((c) => c.name === mesh.name)?.formula : undefined;
-    this.settings.formula = text === own ? '' : text;
-    this.indicators.setCase(mesh.kind === 'case' && this.settings.formula === '' ? mesh.name : null);
-    this.showInitial(false);
-    await this.metricChanged();
+    if (text === this.setup.formula.text()) this.takeFormula(text, false); // else: typed on meanwhile
   }
 
-  /** Numbers that depend on mesh and metric alone. */
-  private async metricChanged(): Promise<void> {
-    try {
-      const report = JSON.parse(await this.workshop.call('report', {})) as { complexity?: number };
-      this.indicators.setIdealCells(report.complexity ?? null);
-    } catch {
-      this.indicators.setIdealCells(null);
-    }
+  /** Shows the initial mesh in the metric that is in force now. */
+  private takeFormula(text: string, fit: boolean): void {
+    const { mesh } = this.settings;
+    this.settings.formula = text === this.subject.ownFormula(mesh) ? '' : text;
+    this.setup.formula.setError(null);
+    this.indicators.setCase(mesh.kind === 'case' && this.settings.formula === '' ? mesh.name : null);
+    this.showInitial(fit);
+    void this.subject.idealCells().then((count) => this.indicators.setIdealCells(count));
   }
 
   /** Back to the initial mesh, without a run. */
   private showInitial(fit: boolean): void {
-    this.awaited = null;
-    this.irregular = null;
+    this.run.reset();
     this.setup.setStatus('');
-    this.player.reset(this.initial);
+    this.player.reset(this.subject.initial);
     this.picture.clearEllipses();
     this.picture.showAll(fit);
     this.measures.request(0);
     this.ellipses.request(0);
     this.refresh();
-  }
-
-  private async forgetRun(): Promise<void> {
-    const { events } = this.player;
-    await this.workshop.abandon();
-    if (events.length > 0) this.showInitial(false);
-    this.refresh();
-  }
-
-  // ---- running
-
-  /** Computes the run; plays it while it comes if wished. */
-  private async start(play: boolean): Promise<void> {
-    const { player, workshop } = this;
-    await workshop.abandon();
-    const { awaited } = this;
-    if (player.events.length > 0) this.showInitial(false);
-    this.awaited = awaited;
-    const run = workshop.adapt({ ...this.settings.options });
-    this.setup.setStatus('Computing');
-    if (play) player.play();
-    this.refresh();
-    try {
-      const result = await run;
-      if (!result) return;
-      player.finish();
-      const report = JSON.parse(result.report) as { irregular_vertices?: number; mesh?: { cells: number } };
-      this.irregular = report.irregular_vertices ?? null;
-      const made = report.mesh ? `${report.mesh.cells.toLocaleString('en')} ${cellWord(this.initial.dim, report.mesh.cells)}` : 'Done';
-      this.setup.setStatus(
-        `${made} in ${result.seconds.toFixed(result.seconds < 10 ? 1 : 0)} s. ${result.outcome.status === 'ok' ? '' : result.outcome.message}`.trim(),
-      );
-      this.showAwaited(true);
-    } catch (error) {
-      player.pause();
-      player.finish();
-      this.setup.setStatus('');
-      this.tell(error);
-    }
-    this.refresh();
-  }
-
-  private showAwaited(last = false): void {
-    if (this.awaited === null) return;
-    const { player } = this;
-    if (player.events.length < this.awaited && !last) return;
-    const index = Math.min(this.awaited, player.events.length);
-    this.awaited = null;
-    player.seek(index);
-  }
-
-  private get hasRun(): boolean {
-    return this.player.events.length > 0 || this.workshop.running;
-  }
-
-  private togglePlay(): void {
-    if (this.initial === nothing) return;
-    if (this.player.playing) this.player.pause();
-    else if (this.hasRun) this.player.play();
-    else void this.start(true);
-  }
-
-  private step(direction: 1 | -1): void {
-    if (this.initial === nothing) return;
-    if (!this.hasRun && direction === 1) {
-      this.awaited = 1;
-      void this.start(false);
-    } else {
-      this.player.step(direction);
-    }
   }
 
   private setPace(pace: Pace): void {
@@ -391,7 +293,10 @@ export class App {
   private async measure(): Promise<void> {
     const { mesh } = this.player;
     const { points, cells } = mesh.snapshot();
-    const measures = await this.workshop.call('measure', { points, cells, lengths: true }, [points.buffer, cells.buffer] as ArrayBuffer[]);
+    const measures = await this.workshop.call('measure', { points, cells, lengths: true }, [
+      points.buffer,
+      cells.buffer,
+    ] as ArrayBuffer[]);
     if (mesh !== this.player.mesh) return;
     this.picture.setShapes(measures.shapes as Float64Array<ArrayBuffer>);
     this.indicators.update(measures);
@@ -407,42 +312,34 @@ export class App {
       playing: player.playing,
       running: this.workshop.running,
       pace: settings.pace,
-      caption: this.initial === nothing ? 'Loading' : captionOf(event, player.mesh, settings.options.threshold, player.events.length),
+      caption: this.subject.empty
+        ? 'Loading'
+        : captionOf(event, player.mesh, settings.options.threshold, player.events.length),
       kind: event?.kind ?? null,
       iteration: player.iterations,
     });
-    this.setup.update({ mesh: settings.mesh, options: settings.options, running: this.workshop.running, summary: this.summary() });
+    this.setup.update({
+      mesh: settings.mesh,
+      options: settings.options,
+      running: this.workshop.running,
+      summary: this.subject.empty ? '' : summaryOf(settings.mesh, this.subject.initial),
+    });
     this.tools.update({ marks: settings.marks, colouring: settings.colouring, dim: player.mesh.dim });
-    const { colours } = this.picture;
-    this.tools.setLegend(
-      colours &&
-        (settings.colouring === 'shape'
-          ? { colours, title: 'Shape η', low: '0 flat', high: '1 unit' }
-          : { colours, title: 'Made in iteration', low: 'initial', high: String(player.iterations) }),
-    );
-    this.start_.hidden = this.hasRun || this.initial === nothing;
-    this.indicators.setIrregular(player.atEnd && player.complete ? this.irregular : null);
+    this.tools.setLegend(legendOf(settings.colouring, this.picture.colours, player.iterations));
+    this.start_.hidden = this.run.hasRun || this.subject.empty;
+    this.indicators.setIrregular(player.atEnd && player.complete ? this.run.irregular : null);
     this.rewriteLink();
-  }
-
-  private summary(): string {
-    if (this.initial === nothing) return '';
-    const { mesh } = this.settings;
-    const { dim, cells, points } = this.initial;
-    const count = cells.length >> dim;
-    const name = mesh.kind === 'file' ? `${mesh.name}: ` : '';
-    return `${name}${count.toLocaleString('en')} ${cellWord(dim, count)}, ${(points.length / dim).toLocaleString('en')} vertices at the start`;
   }
 
   // ---- links and files
 
   private link(): string {
     const event = this.player.index > 0 ? this.player.index : null;
-    return encodeSettings({ ...this.settings, event: this.awaited ?? event, camera: this.picture.pose });
+    return encodeSettings({ ...this.settings, event: this.run.awaited ?? event, camera: this.picture.pose });
   }
 
   private writeLink(): void {
-    if (this.player.playing || this.initial === nothing) return;
+    if (this.player.playing || this.subject.empty) return;
     history.replaceState(null, '', `#${this.link()}`);
   }
 
@@ -451,33 +348,23 @@ export class App {
     this.writeLink();
     try {
       await navigator.clipboard.writeText(location.href);
-      this.messages.show({ kind: 'note', text: 'The link is copied: it shows exactly this, event and camera included.' });
+      this.messages.show({
+        kind: 'note',
+        text: 'The link is copied: it shows exactly this, event and camera included.',
+      });
     } catch {
       this.messages.show({ kind: 'note', text: 'The address bar holds the link to exactly this; copy it from there.' });
     }
   }
 
   private async save(format: SaveFormat): Promise<void> {
-    const { mesh } = this.settings;
-    const stem = (mesh.kind === 'case' ? mesh.name : mesh.kind === 'file' ? mesh.name.replace(/\.\w+$/, '') : 'grid').replace(/[^\w-]+/g, '-');
-    const name = `${stem}-${this.player.index}.${format}`;
+    const { player, picture, workshop, settings } = this;
     try {
-      this.player.pause();
-      const blob = format === 'png' ? await this.picture.capture() : await this.fileOf(name);
-      const url = URL.createObjectURL(blob);
-      h('a', { href: url, download: name }).click();
-      setTimeout(() => URL.revokeObjectURL(url), 10_000);
-      this.messages.show({ kind: 'note', text: `Saved ${name}, ${saveFormats.find((f) => f.id === format)?.label}.` });
+      const name = await saveShown(format, { player, picture, workshop, mesh: settings.mesh });
+      this.messages.show({ kind: 'note', text: `Saved ${name}.` });
     } catch (error) {
       this.tell(error);
     }
-  }
-
-  private async fileOf(name: string): Promise<Blob> {
-    const { player } = this;
-    const last = player.complete && player.atEnd;
-    const bytes = await this.workshop.call('write', { name, ...(last ? {} : { events: player.index }) });
-    return new Blob([bytes as Uint8Array<ArrayBuffer>], { type: 'application/octet-stream' });
   }
 
   // ---- mishaps

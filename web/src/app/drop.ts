@@ -2,7 +2,11 @@
 import { h } from '../ui/dom.ts';
 
 export function acceptDrops(take: (file: File) => void): void {
-  const veil = h('div', { class: 'veil', hidden: true }, h('p', {}, 'Drop a quad or hex mesh: .mesh, .msh, .vtk, .vtu'));
+  const veil = h(
+    'div',
+    { class: 'veil', hidden: true },
+    h('p', {}, 'Drop a quad or hex mesh: .mesh, .msh, .vtk, .vtu'),
+  );
   document.body.append(veil);
   let depth = 0;
   const carriesFile = (event: DragEvent): boolean => event.dataTransfer?.types.includes('Files') ?? false;

@@ -24,7 +24,10 @@ export class Picture {
   onProblem: (sentence: string | null) => void = () => undefined;
 
   private viewport: Viewport | null = null;
-  private look: Look = { colouring: 'plain', marks: { tags: true, layer: true, hull: true, buffer: true, ellipses: true } };
+  private look: Look = {
+    colouring: 'plain',
+    marks: { tags: true, layer: true, hull: true, buffer: true, ellipses: true },
+  };
   private shapes = new Float64Array(0);
   private readonly player: Player;
 

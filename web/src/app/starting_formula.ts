@@ -17,5 +17,5 @@ export function formulaFor(mesh: MeshArrays): string {
   const longest = sides[axis] || 1;
   const middle = (low[axis] + high[axis]) / 2;
   const fine = dim === 2 ? 60 : 20;
-  return `h = ${short(longest / fine)} + 0.1*abs(${'xyz'[axis]} - ${short(middle) === '0' ? '0' : short(middle).replace(/^-.*/, '($&)')})`;
+  return `h = ${short(longest / fine)} + 0.1*abs(${'xyz'[axis]} - ${middle < 0 ? `(${short(middle)})` : short(middle)})`;
 }

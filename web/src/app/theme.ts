@@ -32,5 +32,8 @@ export function followTheme(changed: () => void): void {
   const choice = stored();
   if (choice) document.documentElement.dataset.theme = choice;
   system.addEventListener('change', changed);
-  new MutationObserver(changed).observe(document.documentElement, { attributes: true, attributeFilter: ['data-theme'] });
+  new MutationObserver(changed).observe(document.documentElement, {
+    attributes: true,
+    attributeFilter: ['data-theme'],
+  });
 }

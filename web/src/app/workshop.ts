@@ -22,7 +22,11 @@ export class Workshop {
     this.client = this.connect();
   }
 
-  call<N extends CallName>(name: N, args: Calls[N]['args'], transfer: Transferable[] = []): Promise<Calls[N]['result']> {
+  call<N extends CallName>(
+    name: N,
+    args: Calls[N]['args'],
+    transfer: Transferable[] = [],
+  ): Promise<Calls[N]['result']> {
     return this.client.call(name, args, transfer);
   }
 

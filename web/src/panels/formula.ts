@@ -72,10 +72,27 @@ export function makeFormulaField(onInput: (text: string) => void): FormulaField 
         'ul',
         {},
         h('li', {}, h('code', {}, 'h'), ', one size for all directions'),
-        h('li', {}, h('code', {}, 'h1'), ', ', h('code', {}, 'h2'), ' and ', h('code', {}, 'theta'), ', the angle of the first; in 3D also ', h('code', {}, 'h3'), ', ', h('code', {}, 'phi')),
+        h(
+          'li',
+          {},
+          h('code', {}, 'h1'),
+          ', ',
+          h('code', {}, 'h2'),
+          ' and ',
+          h('code', {}, 'theta'),
+          ', the angle of the first; in 3D also ',
+          h('code', {}, 'h3'),
+          ', ',
+          h('code', {}, 'phi'),
+        ),
         h('li', {}, h('code', {}, 'm11 m12 m22'), ', the tensor itself; in 3D also ', h('code', {}, 'm13 m23 m33')),
       ),
-      h('p', {}, 'x, y, z, r = |(x, y, z)|, pi, + − * / ^, comparisons, if(c, a, b), sqrt exp log sin cos tan atan atan2 asin acos tanh abs min max pow floor.'),
+      h(
+        'p',
+        {},
+        'x, y, z, r = |(x, y, z)|, pi, + − * / ^, comparisons, if(c, a, b), ' +
+          'sqrt exp log sin cos tan atan atan2 asin acos tanh abs min max pow floor.',
+      ),
     ),
   );
   return {

@@ -31,7 +31,12 @@ function logo(): SVGSVGElement {
 
 export function makeHeader(actions: HeaderActions): HTMLElement {
   const button = (name: IconName, label: string, action: () => void): HTMLButtonElement =>
-    h('button', { type: 'button', class: 'plain', title: label, onclick: action }, icon(name), h('span', { class: 'wide-only' }, label));
+    h(
+      'button',
+      { type: 'button', class: 'plain', title: label, onclick: action },
+      icon(name),
+      h('span', { class: 'wide-only' }, label),
+    );
   const menu = h(
     'details',
     { class: 'menu' },
@@ -41,7 +46,11 @@ export function makeHeader(actions: HeaderActions): HTMLElement {
       { class: 'menu-items' },
       h('p', { class: 'hint' }, 'The mesh as it is shown'),
       ...saveFormats.map(({ id, label }) =>
-        h('button', { type: 'button', 'data-format': id, onclick: () => ((menu.open = false), actions.save(id)) }, label),
+        h(
+          'button',
+          { type: 'button', 'data-format': id, onclick: () => ((menu.open = false), actions.save(id)) },
+          label,
+        ),
       ),
     ),
   );

@@ -23,17 +23,26 @@ export function makeHelp(version: () => string): HTMLDialogElement {
     h(
       'p',
       {},
-      'A metric says how large, how stretched and in which direction cells should be at every point. Measured in it, a perfect edge has length 1. ' +
-        'Edges that are much too long are tagged. Cells joined through parallel tagged edges form a layer; the layer is shrunk, and a buffer layer of new cells fills the gap. ' +
+      'A metric says how large, how stretched and in which direction cells should be at every point. ' +
+        'Measured in it, a perfect edge has length 1. ' +
+        'Edges that are much too long are tagged. Cells joined through parallel tagged edges form a layer; the layer ' +
+        'is shrunk, and a buffer layer of new cells fills the gap. ' +
         'This is repeated until no edge is too long, and the mesh never has a hanging node on the way.',
     ),
     h('h2', {}, 'Keys'),
-    h('dl', { class: 'keys' }, ...keys.flatMap(([key, what]) => [h('dt', {}, ...key.split(' ').map((k) => h('kbd', {}, k))), h('dd', {}, what)])),
+    h(
+      'dl',
+      { class: 'keys' },
+      ...keys.flatMap(([key, what]) => [h('dt', {}, ...key.split(' ').map((k) => h('kbd', {}, k))), h('dd', {}, what)]),
+    ),
     h('p', {}, 'Drag to move, wheel or pinch to zoom, double-click for the whole mesh.'),
     about,
     h('form', { method: 'dialog' }, h('button', { class: 'primary', value: 'close' }, 'Close')),
   );
-  dialog.addEventListener('toggle', () => (about.textContent = `pillowmesh ${version()}. Everything is computed in your browser; nothing leaves it.`));
+  dialog.addEventListener(
+    'toggle',
+    () => (about.textContent = `pillowmesh ${version()}. Everything is computed in your browser; nothing leaves it.`),
+  );
   dialog.addEventListener('click', (event) => {
     if (event.target === dialog) dialog.close();
   });

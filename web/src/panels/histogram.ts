@@ -44,15 +44,33 @@ export function makeHistogram(options: HistogramOptions): Histogram {
 
     picture.replaceChildren(
       ...(options.band
-        ? [svg('rect', { class: 'band', x: x(options.band[0]), width: x(options.band[1]) - x(options.band[0]), y: 0, height })]
+        ? [
+            svg('rect', {
+              class: 'band',
+              x: x(options.band[0]),
+              width: x(options.band[1]) - x(options.band[0]),
+              y: 0,
+              height,
+            }),
+          ]
         : []),
       ...counts.flatMap((n, i) =>
         n === 0
           ? []
-          : [svg('rect', { class: 'bar', x: i * bar + 0.4, width: bar - 0.8, y: height - Math.max(1, (n / top) * (height - 4)), height: Math.max(1, (n / top) * (height - 4)) })],
+          : [
+              svg('rect', {
+                class: 'bar',
+                x: i * bar + 0.4,
+                width: bar - 0.8,
+                y: height - Math.max(1, (n / top) * (height - 4)),
+                height: Math.max(1, (n / top) * (height - 4)),
+              }),
+            ],
       ),
       svg('line', { class: 'axis', x1: 0, x2: width, y1: height + 0.5, y2: height + 0.5 }),
-      ...(options.mark ? [svg('line', { class: 'unit', x1: x(options.mark), x2: x(options.mark), y1: 0, y2: height })] : []),
+      ...(options.mark
+        ? [svg('line', { class: 'unit', x1: x(options.mark), x2: x(options.mark), y1: 0, y2: height })]
+        : []),
       ...ticks.map((t) =>
         svg(
           'text',

@@ -22,7 +22,9 @@ const columns = ['Nb', 'min', 'mean', 'max', 'cv'] as const;
 
 function cells(row: Row): HTMLTableCellElement[] {
   const [count, low, mean, high, cv] = row;
-  return [String(count), low.toFixed(3), mean.toFixed(3), high.toFixed(2), cv.toFixed(3)].map((text) => h('td', {}, text));
+  return [String(count), low.toFixed(3), mean.toFixed(3), high.toFixed(2), cv.toFixed(3)].map((text) =>
+    h('td', {}, text),
+  );
 }
 
 function makeTable(caption: string): { element: HTMLElement; fill(ours: Row | null, paper: [string, Row][]): void } {
@@ -31,7 +33,16 @@ function makeTable(caption: string): { element: HTMLElement; fill(ours: Row | nu
     'table',
     { class: 'indicators' },
     h('caption', { class: 'unseen' }, caption),
-    h('thead', {}, h('tr', {}, h('th', { scope: 'col' }, h('span', { class: 'unseen' }, 'Mesh')), ...columns.map((c) => h('th', { scope: 'col' }, c)))),
+    h(
+      'thead',
+      {},
+      h(
+        'tr',
+        {},
+        h('th', { scope: 'col' }, h('span', { class: 'unseen' }, 'Mesh')),
+        ...columns.map((c) => h('th', { scope: 'col' }, c)),
+      ),
+    ),
     body,
   );
   return {
@@ -41,7 +52,15 @@ function makeTable(caption: string): { element: HTMLElement; fill(ours: Row | nu
         h('tr', { class: kind }, h('th', { scope: 'row' }, label), ...cells(values));
       body.replaceChildren(
         ...(ours ? [row('Shown', ours, 'ours')] : []),
-        ...(paper.length ? [h('tr', { class: 'group' }, h('th', { scope: 'rowgroup', colspan: columns.length + 1 }, 'Published in the paper'))] : []),
+        ...(paper.length
+          ? [
+              h(
+                'tr',
+                { class: 'group' },
+                h('th', { scope: 'rowgroup', colspan: columns.length + 1 }, 'Published in the paper'),
+              ),
+            ]
+          : []),
         ...paper.map(([label, values]) => row(label, values, 'paper')),
       );
     },
@@ -50,7 +69,10 @@ function makeTable(caption: string): { element: HTMLElement; fill(ours: Row | nu
 
 function fact(label: string, explanation: string): { element: HTMLElement; set(text: string): void } {
   const value = h('dd', {}, '–');
-  return { element: h('div', { title: explanation }, h('dt', {}, label), value), set: (text) => (value.textContent = text) };
+  return {
+    element: h('div', { title: explanation }, h('dt', {}, label), value),
+    set: (text) => (value.textContent = text),
+  };
 }
 
 export function makeIndicators(): Indicators {
@@ -70,7 +92,13 @@ export function makeIndicators(): Indicators {
     band: range,
     mark: 1,
   });
-  const shapePlot = makeHistogram({ label: 'shape eta', logarithmic: false, low: 0, high: 1, ticks: [0, 0.25, 0.5, 0.75, 1] });
+  const shapePlot = makeHistogram({
+    label: 'shape eta',
+    logarithmic: false,
+    low: 0,
+    high: 1,
+    ticks: [0, 0.25, 0.5, 0.75, 1],
+  });
   const element = h(
     'aside',
     { class: 'panel numbers', 'aria-label': 'Indicators', tabindex: 0 },
@@ -91,8 +119,14 @@ export function makeIndicators(): Indicators {
     const rows = (name && published[name]) || [];
     const lengths = last && statistics(last.lengths);
     const shapes = last && statistics(last.shapes);
-    lengthTable.fill(lengths?.row ?? null, rows.map((r) => [r.label, r.lengths]));
-    shapeTable.fill(shapes?.row ?? null, rows.map((r) => [r.label, r.shapes]));
+    lengthTable.fill(
+      lengths?.row ?? null,
+      rows.map((r) => [r.label, r.lengths]),
+    );
+    shapeTable.fill(
+      shapes?.row ?? null,
+      rows.map((r) => [r.label, r.shapes]),
+    );
     if (shapes) cellCount.set(shapes.row[0].toLocaleString('en'));
     if (lengths) inRange.set(`${Math.round(100 * lengths.inRange)} %`);
   };

@@ -37,7 +37,9 @@ function swatch(mark: Mark): SVGSVGElement {
       svg('rect', { x: 2, y: 2, width: 14, height: 12, rx: 2, class: 'swatch-buffer' }),
       svg('path', { d: 'M4 13L14 3M2.5 9L9 2.5M9 13.5L15.5 7', class: 'swatch-hatch' }),
     ],
-    ellipses: [svg('ellipse', { cx: 9, cy: 8, rx: 6.5, ry: 3.6, transform: 'rotate(-25 9 8)', class: 'swatch-ellipse' })],
+    ellipses: [
+      svg('ellipse', { cx: 9, cy: 8, rx: 6.5, ry: 3.6, transform: 'rotate(-25 9 8)', class: 'swatch-ellipse' }),
+    ],
   };
   return svg('svg', { viewBox: '0 0 18 16', width: 18, height: 16, 'aria-hidden': 'true' }, ...shapes[mark]);
 }
@@ -55,7 +57,10 @@ export function makePictureTools(actions: PictureToolActions): PictureTools {
     ]),
   ) as Record<Mark, HTMLButtonElement>;
   const radios = Object.fromEntries(
-    colourings.map((c) => [c, h('input', { type: 'radio', name: 'colouring', value: c, onchange: () => actions.setColouring(c) })]),
+    colourings.map((c) => [
+      c,
+      h('input', { type: 'radio', name: 'colouring', value: c, onchange: () => actions.setColouring(c) }),
+    ]),
   ) as Record<Colouring, HTMLInputElement>;
   const bar = h('span', { class: 'bar' });
   const [low, high, title] = [h('span'), h('span'), h('span', { class: 'title' })];
@@ -73,7 +78,17 @@ export function makePictureTools(actions: PictureToolActions): PictureTools {
         h('legend', { class: 'unseen' }, 'Colour of cells'),
         ...colourings.map((c) => h('label', {}, radios[c], h('span', {}, colouringLabels[c]))),
       ),
-      h('button', { type: 'button', class: 'round', 'aria-label': 'Show the whole mesh', title: 'Show the whole mesh (F)', onclick: actions.fit }, icon('fit')),
+      h(
+        'button',
+        {
+          type: 'button',
+          class: 'round',
+          'aria-label': 'Show the whole mesh',
+          title: 'Show the whole mesh (F)',
+          onclick: actions.fit,
+        },
+        icon('fit'),
+      ),
     ),
   );
   return {

@@ -68,11 +68,21 @@ const optionFields: readonly { name: OptionName; label: string; hint: string; ch
   },
 ];
 
-function optionControl(spec: (typeof optionFields)[number], change: SetupActions['changeOption']): HTMLInputElement | HTMLSelectElement {
+function optionControl(
+  spec: (typeof optionFields)[number],
+  change: SetupActions['changeOption'],
+): HTMLInputElement | HTMLSelectElement {
   const { name, choices } = spec;
   const id = `option-${name}`;
   if (!choices) {
-    const input = h('input', { id, type: 'number', min: 1, max: 10, step: 0.1, onchange: () => change(name, input.value) });
+    const input = h('input', {
+      id,
+      type: 'number',
+      min: 1,
+      max: 10,
+      step: 0.1,
+      onchange: () => change(name, input.value),
+    });
     return input;
   }
   const select = h(
@@ -105,12 +115,16 @@ export function makeSetup(actions: SetupActions): Setup {
       if (file) actions.chooseFile(file);
     },
   });
-  const openFile = h('button', { type: 'button', class: 'plain wide', onclick: () => fileInput.click() }, icon('open'), 'Open a mesh file');
+  const openFile = h(
+    'button',
+    { type: 'button', class: 'plain wide', onclick: () => fileInput.click() },
+    icon('open'),
+    'Open a mesh file',
+  );
   const summary = h('p', { class: 'hint', id: 'mesh-summary' });
-  const controls = Object.fromEntries(optionFields.map((spec) => [spec.name, optionControl(spec, actions.changeOption)])) as Record<
-    OptionName,
-    HTMLInputElement | HTMLSelectElement
-  >;
+  const controls = Object.fromEntries(
+    optionFields.map((spec) => [spec.name, optionControl(spec, actions.changeOption)]),
+  ) as Record<OptionName, HTMLInputElement | HTMLSelectElement>;
   const run = h('button', { type: 'button', class: 'primary wide', id: 'run' });
   let running = false;
   run.addEventListener('click', () => (running ? actions.stop() : actions.run()));

@@ -30,7 +30,15 @@ export interface Transport {
   update(state: TransportState): void;
 }
 
-const paceLabels: Record<Pace, string> = { auto: 'Auto', '0.5': '½×', '1': '1×', '2': '2×', '4': '4×', '16': '16×', '64': '64×' };
+const paceLabels: Record<Pace, string> = {
+  auto: 'Auto',
+  '0.5': '½×',
+  '1': '1×',
+  '2': '2×',
+  '4': '4×',
+  '16': '16×',
+  '64': '64×',
+};
 const kindLabels: Record<EventKind, string> = {
   tags: 'Tags',
   layer: 'Layer',
@@ -43,7 +51,11 @@ const kindLabels: Record<EventKind, string> = {
 
 export function makeTransport(actions: TransportActions): Transport {
   const button = (name: IconName, label: string, keys: string, action: () => void): HTMLButtonElement =>
-    h('button', { class: 'round', type: 'button', 'aria-label': label, title: `${label} (${keys})`, onclick: action }, icon(name));
+    h(
+      'button',
+      { class: 'round', type: 'button', 'aria-label': label, title: `${label} (${keys})`, onclick: action },
+      icon(name),
+    );
   const play = h('button', { class: 'round play', type: 'button', onclick: actions.toggle });
   const stepBack = button('back', 'Step back', '←', () => actions.step(-1));
   const stepForward = button('forward', 'Step forward', '→', () => actions.step(1));
@@ -74,7 +86,12 @@ export function makeTransport(actions: TransportActions): Transport {
   );
   const badge = h('span', { class: 'badge' });
   const text = h('span', { class: 'text' });
-  const caption = h('p', { class: 'caption', id: 'caption', 'aria-live': 'polite', 'aria-atomic': 'true' }, badge, text);
+  const caption = h(
+    'p',
+    { class: 'caption', id: 'caption', 'aria-live': 'polite', 'aria-atomic': 'true' },
+    badge,
+    text,
+  );
 
   let drawn = { count: -1, width: 0, theme: '' };
   let shown: readonly MeshEvent[] = [];

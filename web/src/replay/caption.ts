@@ -2,38 +2,57 @@
 import type { MeshEvent } from '../../../wasm/events.ts';
 import type { ReplayMesh } from './replay_mesh.ts';
 
-export const cellWord = (dim: number, count: number): string =>
-  dim === 2 ? (count === 1 ? 'quad' : 'quads') : count === 1 ? 'hex' : 'hexes';
+export const cellWord = (dim: number, count: number): string => {
+  const [one, many] = dim === 2 ? ['quad', 'quads'] : ['hex', 'hexes'];
+  return count === 1 ? one : many;
+};
 
-const longest = (value: number): string => (value > 0 ? `; the longest edge measures ${number(value)}` : '');
-const number = (value: number): string => Number(value.toPrecision(3)).toString();
-const counted = (count: number, one: string, many = `${one}s`): string => `${count.toLocaleString('en')} ${count === 1 ? one : many}`;
+const counted = (count: number, one: string, many: string): string =>
+  `${count.toLocaleString('en')} ${count === 1 ? one : many}`;
 
+const longest = (length: number): string =>
+  length > 0 ? `; the longest edge measures ${Number(length.toPrecision(3))}` : '';
+
+/** `total`: events known so far; `threshold`: as set, for the sentence about tags. */
 export function captionOf(event: MeshEvent | undefined, mesh: ReplayMesh, threshold: string, total: number): string {
   const cells = (count: number): string => counted(count, cellWord(mesh.dim, 1), cellWord(mesh.dim, 2));
+  const now = (): string => cells(mesh.liveCellCount());
   if (!event) {
-    const initial = `The initial mesh: ${cells(mesh.liveCellCount())}`;
-    if (total > 0) return `${initial}, before anything is done to it.`;
+    if (total > 0) return `The initial mesh: ${now()}, before anything is done to it.`;
     const wish = mesh.dim === 2 ? ' Each ellipse is the cell that the metric wants there.' : '';
-    return `${initial}.${wish} Press play: layers of ${cellWord(mesh.dim, 2)} are inserted until every edge has a metric length of about 1.`;
+    const many = cellWord(mesh.dim, 2);
+    return (
+      `The initial mesh: ${now()}.${wish} ` +
+      `Press play: layers of ${many} are inserted until every edge has a metric length of about 1.`
+    );
   }
-  switch (event.kind) {
-    case 'tags':
-      return event.edges.length === 0
-        ? `No edge is longer than ${threshold} any more: nothing is left to refine.`
-        : `Iteration ${event.iteration + 1}: ${counted(event.edges.length / 2, 'edge is', 'edges are')} tagged, longer than ${threshold} in the metric ` +
-            `or tagged for balance${longest(event.value)}.`;
+  const { kind, iteration, edges, delta, value } = event;
+  switch (kind) {
+    case 'tags': {
+      const tagged = counted(edges.length / 2, 'edge is', 'edges are');
+      return (
+        `Iteration ${iteration + 1}: ${tagged} tagged, longer than ${threshold} in the metric ` +
+        `or tagged for balance${longest(value)}.`
+      );
+    }
     case 'layer':
-      return `${cells(event.cells.length)} joined through parallel tagged edges form a layer, the shrink set; its outline is the hull.`;
-    case 'shrink':
-      return `The hull’s ${counted(event.delta.verticesAfter - event.delta.verticesBefore, 'vertex is', 'vertices are')} duplicated and the layer shrinks; a void opens around it.`;
+      return (
+        `${cells(event.cells.length)} joined through parallel tagged edges form a layer, the shrink set; ` +
+        'its outline is the hull.'
+      );
+    case 'shrink': {
+      const copies = counted(delta.verticesAfter - delta.verticesBefore, 'vertex is', 'vertices are');
+      return `The hull’s ${copies} duplicated and the layer shrinks; a void opens around it.`;
+    }
     case 'connect':
       return `${cells(event.cells.length)} of a buffer layer fill the void; the mesh is conforming again.`;
     case 'dice':
-      return `Every cell is split, which gives ${cells(mesh.liveCellCount())}.`;
-    case 'relocation':
-      return `${counted(event.delta.vertices.length, 'vertex moves', 'vertices move')} to even out size and shape in the metric.`;
+      return `Every cell is split, which gives ${now()}.`;
+    case 'relocation': {
+      const moved = counted(delta.vertices.length, 'vertex moves', 'vertices move');
+      return `${moved} to even out size and shape in the metric.`;
+    }
     case 'iteration':
-      return `Iteration ${event.iteration} ends with ${cells(mesh.liveCellCount())}${longest(event.value)}.`;
+      return `Iteration ${iteration} ends with ${now()}${longest(value)}.`;
   }
 }

@@ -80,7 +80,10 @@ export class Player {
   /** Iterations begun, at least 1. */
   get iterations(): number {
     const { current } = this;
-    return Math.max(1, (current?.iteration ?? 0) + (current?.kind === 'iteration' || current?.kind === 'relocation' ? 0 : 1));
+    return Math.max(
+      1,
+      (current?.iteration ?? 0) + (current?.kind === 'iteration' || current?.kind === 'relocation' ? 0 : 1),
+    );
   }
 
   get atEnd(): boolean {
@@ -110,7 +113,8 @@ export class Player {
   /** To the next (+1) or previous (-1) start or end of an iteration. */
   stepIteration(direction: 1 | -1): void {
     let target = this.index + direction;
-    while (target > 0 && target < this.events.length && this.events[target - 1].kind !== 'iteration') target += direction;
+    while (target > 0 && target < this.events.length && this.events[target - 1].kind !== 'iteration')
+      target += direction;
     this.seek(target);
   }
 

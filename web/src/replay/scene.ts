@@ -46,7 +46,8 @@ function waitingTags(events: readonly MeshEvent[], count: number): Int32Array {
   const waiting = new Map<number, [number, number]>();
   addEdges(waiting, events[start].edges);
   let i = start + 1;
-  for (; i < count; ++i) if (events[i].kind === 'shrink' && events[i - 1].kind === 'layer') removeEdges(waiting, events[i - 1].edges);
+  for (; i < count; ++i)
+    if (events[i].kind === 'shrink' && events[i - 1].kind === 'layer') removeEdges(waiting, events[i - 1].edges);
   const vertices = events[count - 1].delta.verticesAfter;
   for (; i < events.length && steps.has(events[i].kind); ++i) {
     const { kind, edges } = events[i];

@@ -53,9 +53,11 @@ export function decodeSettings(fragment: string): Settings {
   else if (file) settings.mesh = { kind: 'file', name: file };
   else if (name) settings.mesh = { kind: 'case', name };
   settings.formula = get('metric') ?? '';
-  for (const option of Object.keys(optionDefaults) as OptionName[]) settings.options[option] = get(option) ?? optionDefaults[option];
+  for (const option of Object.keys(optionDefaults) as OptionName[])
+    settings.options[option] = get(option) ?? optionDefaults[option];
   settings.colouring = colourings.find((c) => c === get('colour')) ?? settings.colouring;
-  for (const mark of (get('hide') ?? '').split(',')) if (mark in settings.marks) settings.marks[mark as never] = false as never;
+  for (const mark of (get('hide') ?? '').split(','))
+    if (mark in settings.marks) settings.marks[mark as never] = false as never;
   settings.pace = paces.find((p) => p === get('pace')) ?? settings.pace;
   const event = Number.parseInt(get('event') ?? '', 10);
   if (event >= 0) settings.event = event;

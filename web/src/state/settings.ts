@@ -1,7 +1,8 @@
 // Everything that a visitor can set. One plain value: the permalink is this, written down.
 
 /** Where the initial mesh comes from. A file's content is not part of a link: only its name. */
-export type MeshChoice = { kind: 'case'; name: string } | { kind: 'grid'; spec: string } | { kind: 'file'; name: string };
+export type MeshChoice =
+  { kind: 'case'; name: string } | { kind: 'grid'; spec: string } | { kind: 'file'; name: string };
 
 /** Options of core/pillowmesh/adapt/options.h under their command-line names, as text. */
 export const optionDefaults = { threshold: '2', smooth: 'end', dice: '1', thickness: '1', augment: '1' } as const;

@@ -28,7 +28,9 @@ export function icon(name: IconName): SVGSVGElement {
     svg('path', {
       d: paths[name],
       fill: stroke ? 'none' : 'currentColor',
-      ...(stroke ? { stroke: 'currentColor', 'stroke-width': 1.7, 'stroke-linecap': 'round', 'stroke-linejoin': 'round' } : {}),
+      ...(stroke
+        ? { stroke: 'currentColor', 'stroke-width': 1.7, 'stroke-linecap': 'round', 'stroke-linejoin': 'round' }
+        : {}),
     }),
   );
 }

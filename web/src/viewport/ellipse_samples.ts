@@ -57,7 +57,10 @@ export async function sampleEllipses(mesh: ReplayMesh, tensors: Tensors): Promis
   let open: Piece[] = [];
   for (let c = 0; c < mesh.cellCount; c += stride) {
     if (!mesh.alive(c)) continue;
-    const corners = Array.from(mesh.cells.subarray(4 * c, 4 * c + 4), (v) => [mesh.points[2 * v], mesh.points[2 * v + 1]]);
+    const corners = Array.from(mesh.cells.subarray(4 * c, 4 * c + 4), (v) => [
+      mesh.points[2 * v],
+      mesh.points[2 * v + 1],
+    ]);
     open.push({ corners, low: [0, 0], high: [1, 1] });
   }
   const centres: number[] = [];

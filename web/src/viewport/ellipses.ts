@@ -63,13 +63,20 @@ export class Ellipses {
 }
 
 /** Prescribed sizes along the eigenvectors, and the unit vector of the first. */
-export function principal(m11: number, m12: number, m22: number): { sizes: [number, number]; direction: [number, number] } {
+export function principal(
+  m11: number,
+  m12: number,
+  m22: number,
+): { sizes: [number, number]; direction: [number, number] } {
   const mean = (m11 + m22) / 2;
   const half = (m11 - m22) / 2;
   const radius = Math.hypot(half, m12);
   const angle = 0.5 * Math.atan2(m12, half);
   const smaller = (m11 * m22 - m12 * m12) / (mean + radius); // no cancellation
-  return { sizes: [1 / Math.sqrt(mean + radius), 1 / Math.sqrt(smaller)], direction: [Math.cos(angle), Math.sin(angle)] };
+  return {
+    sizes: [1 / Math.sqrt(mean + radius), 1 / Math.sqrt(smaller)],
+    direction: [Math.cos(angle), Math.sin(angle)],
+  };
 }
 
 function square(): InstancedBufferGeometry {

@@ -89,7 +89,11 @@ export class FaceLayer {
   }
 
   /** Takes over what changed in the mesh, or everything. In between, faces go from where they were to where they are. */
-  update(mesh: ReplayMesh, changed: Int32Array | 'all', origins?: (vertex: number) => ArrayLike<number> | undefined): void {
+  update(
+    mesh: ReplayMesh,
+    changed: Int32Array | 'all',
+    origins?: (vertex: number) => ArrayLike<number> | undefined,
+  ): void {
     this.settle();
     if (mesh.dim === 3) {
       this.replaceSurface(mesh);
@@ -179,8 +183,7 @@ export class FaceLayer {
     if (moving === 'all') {
       this.from.array.set(this.to.array);
     } else {
-      for (const face of moving)
-        for (let i = 12 * face; i < 12 * face + 12; ++i) this.from.array[i] = this.to.array[i];
+      for (const face of moving) for (let i = 12 * face; i < 12 * face + 12; ++i) this.from.array[i] = this.to.array[i];
     }
     if (moving === 'all' || moving.length > 0) this.upload([this.from], moving, 12);
     this.moving = new Int32Array(0);

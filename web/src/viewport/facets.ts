@@ -11,7 +11,7 @@ export interface Facets {
 function facetCorner(f: number, k: number): number {
   const axis = f >> 1;
   const low = k & ((1 << axis) - 1);
-  return (low | ((k >> axis) << (axis + 1))) | ((f & 1) << axis);
+  return low | ((k >> axis) << (axis + 1)) | ((f & 1) << axis);
 }
 
 const hexFacets = Array.from({ length: 6 }, (_, f) => Array.from({ length: 4 }, (_, k) => facetCorner(f, k)));

@@ -40,7 +40,8 @@ export const faceFragmentShader = /* glsl */ `
 
   void main() {
     vec3 colour = cellColour;
-    if (coloured > 0.5 && painted.x >= 0.0) colour = texture2D(colours, vec2((painted.x * 255.0 + 0.5) / 256.0, 0.5)).rgb;
+    if (coloured > 0.5 && painted.x >= 0.0)
+      colour = texture2D(colours, vec2((painted.x * 255.0 + 0.5) / 256.0, 0.5)).rgb;
 
     // The layer is tinted, the buffer layer hatched: they differ without colour, too.
     if (painted.y > 0.5 && painted.y < 1.5) colour = mix(colour, layerColour, 0.42);
@@ -56,12 +57,15 @@ export const faceFragmentShader = /* glsl */ `
     }
 
     // Distance in pixels to the four sides; lines fade where cells become as small as the lines.
-    vec2 slope = max(vec2(length(vec2(dFdx(corner.x), dFdy(corner.x))), length(vec2(dFdx(corner.y), dFdy(corner.y)))), 1e-9);
+    vec2 alongX = dFdx(corner);
+    vec2 alongY = dFdy(corner);
+    vec2 slope = max(sqrt(alongX * alongX + alongY * alongY), 1e-9);
     vec2 side = min(corner, 1.0 - corner) / slope;
     float distance = min(side.x, side.y);
     float size = 1.0 / max(slope.x, slope.y);
     float half_ = 0.5 * lineWidth;
-    float line = (1.0 - smoothstep(half_ - 0.5, half_ + 0.5, distance)) * mix(0.22, 1.0, smoothstep(2.0, 12.0, size / lineWidth));
+    float line = 1.0 - smoothstep(half_ - 0.5, half_ + 0.5, distance);
+    line *= mix(0.4, 1.0, smoothstep(1.5, 5.0, size / lineWidth));
     gl_FragColor = vec4(mix(colour, lineColour, line), 1.0);
     ${output}
   }

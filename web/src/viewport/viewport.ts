@@ -184,7 +184,8 @@ export class Viewport {
     cancelAnimationFrame(this.frame);
     this.observer.disconnect();
     this.controls.dispose();
-    for (const layer of [this.faces, this.outline, this.ellipses, this.tags, this.hull, this.layerEdges]) layer.dispose();
+    for (const layer of [this.faces, this.outline, this.ellipses, this.tags, this.hull, this.layerEdges])
+      layer.dispose();
     this.renderer.dispose();
     this.canvas.remove();
   }
@@ -233,7 +234,8 @@ export class Viewport {
   private setPixelRatio(ratio: number): void {
     this.renderer.setPixelRatio(ratio);
     const { width, height } = this.canvas;
-    for (const strokes of [this.outline, this.tags, this.hull, this.layerEdges]) strokes.setResolution(width, height, ratio);
+    for (const strokes of [this.outline, this.tags, this.hull, this.layerEdges])
+      strokes.setResolution(width, height, ratio);
     this.faces.setLineWidth(1.15 * ratio);
     this.ellipses.setLineWidth(1.3 * ratio);
   }

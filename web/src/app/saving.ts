@@ -1,0 +1,35 @@
+// The displayed mesh as a file, a picture or a report.
+import type { SaveFormat } from '../panels/header.ts';
+import type { Player } from '../replay/player.ts';
+import type { MeshChoice } from '../state/settings.ts';
+import { h } from '../ui/dom.ts';
+import type { Picture } from './picture.ts';
+import type { Workshop } from './workshop.ts';
+
+function stemOf(mesh: MeshChoice): string {
+  const name = mesh.kind === 'grid' ? 'grid' : mesh.kind === 'file' ? mesh.name.replace(/\.\w+$/, '') : mesh.name;
+  return name.replace(/[^\w-]+/g, '-');
+}
+
+function download(blob: Blob, name: string): void {
+  const url = URL.createObjectURL(blob);
+  h('a', { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}
+
+/** Saves what is shown and gives the name of the file. */
+export async function saveShown(
+  format: SaveFormat,
+  { player, picture, workshop, mesh }: { player: Player; picture: Picture; workshop: Workshop; mesh: MeshChoice },
+): Promise<string> {
+  player.pause();
+  const name = `${stemOf(mesh)}-${player.index}.${format}`;
+  if (format === 'png') {
+    download(await picture.capture(), name);
+    return name;
+  }
+  const last = player.complete && player.atEnd;
+  const bytes = await workshop.call('write', { name, ...(last ? {} : { events: player.index }) });
+  download(new Blob([bytes as Uint8Array<ArrayBuffer>], { type: 'application/octet-stream' }), name);
+  return name;
+}

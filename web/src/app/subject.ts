@@ -1,0 +1,62 @@
+// What is adapted: an initial mesh and a metric on it, and where they come from.
+import type { Case, MeshArrays, MeshSource } from '../../../wasm/session.ts';
+import type { MeshChoice } from '../state/settings.ts';
+import { formulaFor } from './starting_formula.ts';
+import type { Workshop } from './workshop.ts';
+
+export const nothing: MeshArrays = { dim: 2, points: new Float64Array(0), cells: new Int32Array(0) };
+
+export class Subject {
+  cases: readonly Case[] = [];
+  initial: MeshArrays = nothing;
+  /** Content of the mesh that came as a file last. */
+  file: Uint8Array | null = null;
+  private readonly workshop: Workshop;
+
+  constructor(workshop: Workshop) {
+    this.workshop = workshop;
+  }
+
+  get empty(): boolean {
+    return this.initial === nothing;
+  }
+
+  /** The case's own formula; undefined for other meshes. */
+  ownFormula(choice: MeshChoice): string | undefined {
+    return choice.kind === 'case' ? this.cases.find((c) => c.name === choice.name)?.formula : undefined;
+  }
+
+  /**
+   * Opens a mesh with a metric (empty: the case's own, or one that suits the mesh) and gives the formula in force.
+   * Rejects when either is refused; then what was open stays.
+   */
+  async open(choice: MeshChoice, formula: string): Promise<string> {
+    const source: MeshSource =
+      choice.kind === 'file' ? { kind: 'file', name: choice.name, bytes: this.file ?? new Uint8Array(0) } : choice;
+    let text = formula || this.ownFormula(choice) || '';
+    const mesh = await this.workshop.open(source, text ? { formula: text } : undefined);
+    if (!text) {
+      text = formulaFor(mesh);
+      await this.workshop.setMetric(text);
+    }
+    this.initial = mesh;
+    return text;
+  }
+
+  /** Opens a file that the visitor hands over. */
+  async openFile(file: File, open: (choice: MeshChoice) => Promise<boolean>): Promise<void> {
+    const before = this.file;
+    this.file = new Uint8Array(await file.arrayBuffer());
+    if (!(await open({ kind: 'file', name: file.name }))) this.file = before;
+  }
+
+  /** The ideal number of cells, where the core can tell. */
+  async idealCells(): Promise<number | null> {
+    try {
+      const report = JSON.parse(await this.workshop.call('report', {})) as { complexity?: number };
+      return report.complexity ?? null;
+    } catch {
+      return null;
+    }
+  }
+}

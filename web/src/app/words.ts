@@ -1,0 +1,34 @@
+// Sentences and legends made of the page's state.
+import type { RunResult } from '../../../wasm/protocol.ts';
+import type { MeshArrays } from '../../../wasm/session.ts';
+import { cellWord } from '../replay/caption.ts';
+import type { Colouring, MeshChoice } from '../state/settings.ts';
+
+/** "plate.msh: 63 quads, 80 vertices at the start" */
+export function summaryOf(choice: MeshChoice, { dim, cells, points }: MeshArrays): string {
+  const count = cells.length >> dim;
+  const name = choice.kind === 'file' ? `${choice.name}: ` : '';
+  const vertices = (points.length / dim).toLocaleString('en');
+  return `${name}${count.toLocaleString('en')} ${cellWord(dim, count)}, ${vertices} vertices at the start`;
+}
+
+/** "2,326 quads in 0.8 s." and, if something is left to say, that. */
+export function outcomeOf({ outcome, seconds }: RunResult, cells: number | undefined, dim: number): string {
+  const made = cells === undefined ? 'Done' : `${cells.toLocaleString('en')} ${cellWord(dim, cells)}`;
+  const sentence = `${made} in ${seconds.toFixed(seconds < 10 ? 1 : 0)} s.`;
+  return outcome.status === 'ok' ? sentence : `${sentence} ${outcome.message}`;
+}
+
+export interface Legend {
+  colours: Uint8Array;
+  title: string;
+  low: string;
+  high: string;
+}
+
+export function legendOf(colouring: Colouring, colours: Uint8Array | null, iterations: number): Legend | null {
+  if (!colours) return null;
+  return colouring === 'shape'
+    ? { colours, title: 'Shape η', low: '0 flat', high: '1 unit' }
+    : { colours, title: 'Made in iteration', low: 'initial', high: String(iterations) };
+}
