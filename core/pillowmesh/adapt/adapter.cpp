@@ -117,6 +117,7 @@ struct Adapter<Dim>::State {
     next_seed = 0;
     first_new = mesh.cell_count();
     inserted = refused = 0;
+    layer_marks.refined.clear();
     stage = Stage::layers;
   }
 
@@ -149,10 +150,13 @@ struct Adapter<Dim>::State {
       return;
     }
     inherit_tags<Dim>(mesh, buffer_layer, pillow.hull.facets, tags);
+    if (options.thickness > 1) mark_refined<Dim>(mesh, layer, buffer_layer, pillow.hull.facets, layer_marks);
     for (Index i = 0; i < buffer_layer.cell_count; ++i) {
       tagging.look_again(buffer_layer.first_cell + i);
       seeds.push_back(buffer_layer.first_cell + i);
     }
+    // The cells of the layer too: one that is inside a thick or winding layer lost its tags without being refined.
+    for (const CellId c : layer.cells) tagging.look_again(c);
     for (const CellId changed : buffer_layer.changed) tagging.look_again(changed);
     recorder.buffer_layer(mesh, buffer_layer, iteration);
     ++inserted;

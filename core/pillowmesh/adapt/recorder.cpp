@@ -65,6 +65,11 @@ void Recorder<Dim>::buffer_layer(const Mesh<Dim>& mesh, const BufferLayer<Dim>& 
     shrink.old_points.push_back(mesh.points[layer.origins[i]]);
     shrink.new_points.push_back(mesh.points[v]);
   }
+  for (std::size_t i = 0; i < layer.moved.size(); ++i) {
+    shrink.vertices.push_back(layer.moved[i]);
+    shrink.old_points.push_back(layer.old_points[i]);
+    shrink.new_points.push_back(mesh.points[layer.moved[i]]);
+  }
   for (std::size_t i = 0; i < layer.changed.size(); ++i) {
     const CellId c = layer.changed[i];
     if (mesh.cells[c] == layer.old_corners[i]) continue;

@@ -7,6 +7,9 @@ namespace pillowmesh {
 
 /// a x b in 2D, a . (b x c) in 3D, of the edge vectors out of a corner in axis order.
 inline double cross(const Point<2>& a, const Point<2>& b) { return a[0] * b[1] - a[1] * b[0]; }
+inline Point<3> vector_product(const Point<3>& a, const Point<3>& b) {
+  return Point<3>(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+}
 inline double triple(const Point<3>& a, const Point<3>& b, const Point<3>& c) {
   return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pillowmesh/mesh/jacobian.h"
+#include "pillowmesh/mesh/slide.h"
 #include "pillowmesh/refine/untangle.h"
 
 namespace pillowmesh {
@@ -45,7 +46,7 @@ class Inserter {
 
   Inserter(Mesh<Dim>& mesh, PillowWorkspace<Dim>& work, BufferLayer<Dim>& layer)
       : mesh_(mesh), hull_(work.hull), plan_(work.plan), touched_(work.touched), layer_(layer), sides_(work.sides),
-        old_vertex_cell_(work.old_vertex_cell) {}
+        old_vertex_cell_(work.old_vertex_cell), movable_(work.movable) {}
 
   /// What lies across each side of each new cell, decided while the old adjacency still stands.
   void find_side_neighbours() {
@@ -157,6 +158,12 @@ class Inserter {
     }
   }
 
+  void forget_moves() {
+    layer_.moved.clear();
+    layer_.old_points.clear();
+    layer_.old_anchors.clear();
+  }
+
   bool conforming() const {
     for (CellId k = layer_.first_cell; k < mesh_.cell_count(); ++k)
       if (!conforming(k)) return false;
@@ -168,10 +175,56 @@ class Inserter {
       if (!(min_corner_jacobian(mesh_, c) > 0)) return false;
     for (CellId k = layer_.first_cell; k < mesh_.cell_count(); ++k)
       if (!(min_corner_jacobian(mesh_, k) > 0)) return false;
+    for (const VertexId v : layer_.moved) {
+      vertex_star(mesh_, v, plan_.star);
+      for (const auto& [c, corner] : plan_.star)
+        if (!(min_corner_jacobian(mesh_, c) > 0)) return false;
+    }
     return true;
   }
 
+  /// Vertices of the hull must still be on the boundary entities that they are classified on, now that the new cells have
+  /// brought new boundary facets. A copy that has come to lie on the boundary learns so; it starts at its origin.
+  bool supports_hold() {
+    for (const VertexId v : hull_.vertices) {
+      VertexSupport found;
+      if (!support_from_facets(v, found)) return false;
+      if (mesh_.support[v].dim != 0 && !(found == mesh_.support[v])) return false;
+      if (mesh_.support[v].dim == 0 && found.dim == Dim) return false;
+    }
+    for (std::size_t i = 0; i < layer_.origins.size(); ++i) {
+      const VertexId v = layer_.first_vertex + static_cast<VertexId>(i);
+      VertexSupport found;
+      if (!support_from_facets(v, found) || found.dim == 0) return false;
+      if (found == mesh_.support[v]) continue;
+      const VertexId origin = layer_.origins[i];
+      mesh_.support[v] = found;
+      mesh_.anchor[v] = anchor_on(mesh_, found, origin, mesh_.points[origin]);
+      mesh_.points[v] = mesh_.points[origin];
+      if (mesh_.anchor[v] == kNone && found.dim < Dim) return false;
+    }
+    return true;
+  }
+
+  /// Untangles with more and more freedom: the new vertices; the hull's as well; all of the cells concerned.
+  bool make_room() {
+    movable_.clear();
+    for (VertexId v = layer_.first_vertex; v < mesh_.vertex_count(); ++v) movable_.push_back(v);
+    if (untangle<Dim>(mesh_, movable_) && positive()) return true;
+    for (const VertexId v : hull_.vertices) remember(v);
+    if (untangle<Dim>(mesh_, movable_) && positive()) return true;
+    for (const CellId c : layer_.changed)
+      for (const VertexId v : mesh_.cells[c])
+        if (std::find(movable_.begin(), movable_.end(), v) == movable_.end()) remember(v);
+    return untangle<Dim>(mesh_, movable_, 200) && positive();
+  }
+
   void undo() {
+    for (std::size_t i = 0; i < layer_.moved.size(); ++i) {
+      mesh_.points[layer_.moved[i]] = layer_.old_points[i];
+      mesh_.anchor[layer_.moved[i]] = layer_.old_anchors[i];
+    }
+    forget_moves();
     for (std::size_t i = 0; i < layer_.changed.size(); ++i) {
       mesh_.cells[layer_.changed[i]] = layer_.old_corners[i];
       mesh_.twins[layer_.changed[i]] = layer_.old_twins[i];
@@ -188,6 +241,38 @@ class Inserter {
 
  private:
   using Side = NewCellSide;
+
+  /// The support that the boundary facets at v ask for. False when no entity of the domain fits.
+  bool support_from_facets(VertexId v, VertexSupport& support) {
+    vertex_star(mesh_, v, plan_.star);
+    std::array<PatchId, 3> patch{};
+    int patches = 0;
+    for (const auto& [c, corner] : plan_.star)
+      for (int axis = 0; axis < Dim; ++axis) {
+        const int f = C::facet(axis, (corner >> axis) & 1);
+        if (!mesh_.on_boundary(c, f)) continue;
+        const PatchId p = mesh_.patch_of(c, f);
+        if (std::find(patch.begin(), patch.begin() + patches, p) != patch.begin() + patches) continue;
+        if (patches == 3) return mesh_.support[v].dim == 0;
+        patch[patches++] = p;
+      }
+    support = patches == 0 ? VertexSupport{Dim, kNone} : VertexSupport{Dim - 1, patch[0]};
+    if (patches < 2) return true;
+    support = {0, kNone};
+    if (Dim == 2 || patches == 3 || mesh_.support[v].dim == 0) return true;
+    if (mesh_.support[v].dim != 1) return false;
+    const auto& pair = mesh_.geometry->curve_patches[mesh_.support[v].entity];
+    if (pair[0] != std::min(patch[0], patch[1]) || pair[1] != std::max(patch[0], patch[1])) return false;
+    support = mesh_.support[v];
+    return true;
+  }
+
+  void remember(VertexId v) {
+    movable_.push_back(v);
+    layer_.moved.push_back(v);
+    layer_.old_points.push_back(mesh_.points[v]);
+    layer_.old_anchors.push_back(mesh_.anchor[v]);
+  }
 
   /// 3D: around an edge across which the shrink set is joined, the partner is found through the outside; at a boundary
   /// edge where the shrink set touches the boundary only there, the outside's patch is needed if the two part.
@@ -250,6 +335,7 @@ class Inserter {
   BufferLayer<Dim>& layer_;
   std::vector<Side>& sides_;
   std::vector<CellId>& old_vertex_cell_;
+  std::vector<VertexId>& movable_;
 };
 
 }  // namespace
@@ -264,6 +350,7 @@ Status insert_buffer_layer(Mesh<Dim>& mesh, std::span<const CellId> shrink_set,
   Inserter<Dim> inserter(mesh, work, layer);
   // A third of the way across at first; a tenth where thin or bent cells would turn inside out; then untangling.
   constexpr std::array<double, 3> shrinks{1.0, 0.3, 1.0};
+  inserter.forget_moves();
   for (std::size_t attempt = 0; attempt < shrinks.size() && !work.hull.facets.empty(); ++attempt) {
     status = plan_copies(mesh, work.hull, shrinks[attempt], work.plan);
     if (!status.ok()) break;
@@ -273,13 +360,13 @@ Status insert_buffer_layer(Mesh<Dim>& mesh, std::span<const CellId> shrink_set,
     inserter.extrude();
     inserter.connect_sides();
     inserter.repair_vertex_cells();
-    if (!inserter.conforming()) {
+    if (!inserter.conforming() || !inserter.supports_hold()) {
       inserter.undo();
-      status = Status::illegal("two cells would share more than one facet");
+      status = Status::illegal("the new cells would not fit: two share more than one facet, or leave their boundary");
       break;
     }
     const bool last = attempt + 1 == shrinks.size();
-    if (inserter.positive() || (last && untangle(mesh, layer.first_vertex) && inserter.positive())) break;
+    if (inserter.positive() || (last && inserter.make_room())) break;
     inserter.undo();
     status = Status::illegal("no position of the new vertices keeps all corner Jacobians positive");
   }

@@ -19,6 +19,10 @@ struct BufferLayer {
   std::vector<CellId> changed;
   std::vector<Corners<Dim>> old_corners;
   std::vector<std::array<HalfFacetId, Cell<Dim>::facets>> old_twins;  ///< of `changed`
+  /// Vertices that had to make room, and where they were. Empty for most layers.
+  std::vector<VertexId> moved;
+  std::vector<Point<Dim>> old_points;
+  std::vector<Index> old_anchors;
 };
 
 /// Neighbour across a side of a new cell: the new cell of another hull facet, or the boundary.
@@ -38,6 +42,7 @@ struct PillowWorkspace {
   std::vector<CellId> touched;
   std::vector<NewCellSide> sides;
   std::vector<CellId> old_vertex_cell;
+  std::vector<VertexId> movable;
 };
 
 /// Inserts a buffer layer around `shrink_set` (live cells, each once). The new layer has thickness from the start.

@@ -9,6 +9,7 @@ class Grower {
   Grower(const Mesh<Dim>& mesh, EdgeTags<Dim>& tags, LayerMarks& marks, Layer& layer)
       : mesh_(mesh), tags_(tags), marks_(marks), layer_(layer) {
     if (marks_.visited.size() < mesh.cells.size()) marks_.visited.resize(mesh.cells.size(), 0);
+    if (marks_.refined.size() < mesh.cells.size()) marks_.refined.resize(mesh.cells.size(), 0);
   }
 
   /// All cells at an edge become part of the layer; `top` is the edge's upper vertex.
@@ -61,27 +62,19 @@ class Grower {
     }
   }
 
-  /// One more row of cells, on the side where more edges are tagged.
-  void thicken(std::size_t& bottom_first, std::size_t& bottom_last, std::size_t& top_first, std::size_t& top_last) {
-    const auto tagged_beyond = [&](std::size_t first, std::size_t last, bool above) {
-      std::size_t count = 0;
-      for (std::size_t i = first; i < last; ++i) {
-        const LayerCell n = beyond(layer_.visits[i], above);
-        if (n.cell == kNone || (marks_.visited[n.cell] >> n.axis) & 1) continue;
-        for (int k = 0; k < C::edges_per_axis; ++k) count += tags_.has(n.cell, C::edge(n.axis, k));
-      }
-      return count;
-    };
-    const bool above =
-        tagged_beyond(top_first, top_last, true) >= tagged_beyond(bottom_first, bottom_last, false);
-    const std::size_t first = above ? top_first : bottom_first, last = above ? top_last : bottom_last;
-    const std::size_t begin = layer_.visits.size();
-    for (std::size_t i = first; i < last; ++i) {
-      const LayerCell n = beyond(layer_.visits[i], above);
-      if (n.cell != kNone) add(n.cell, n.axis, n.up);
+  /// More rows of cells, all on one side, so that hull remains on the other side of the edges that formed the layer.
+  void thicken(int thickness) {
+    const std::size_t seed_row = layer_.visits.size();
+    std::array<std::vector<LayerCell>, 2> rows;
+    const std::array<std::size_t, 2> tagged{next_row(0, seed_row, false, rows[0]), next_row(0, seed_row, true, rows[1])};
+    const bool above = tagged[1] >= tagged[0];
+    std::vector<LayerCell>& row = rows[above];
+    for (int k = 1; k < thickness && !row.empty(); ++k) {
+      const std::size_t begin = layer_.visits.size();
+      for (const LayerCell& n : row) add(n.cell, n.axis, n.up);
+      next_row(begin, layer_.visits.size(), above, row);
     }
-    const std::size_t end = layer_.visits.size();
-    for (std::size_t i = begin; i < end; ++i)
+    for (std::size_t i = seed_row; i < layer_.visits.size(); ++i)
       for (int k = 0; k < C::edges_per_axis; ++k) {
         const LayerCell v = layer_.visits[i];
         const CellEdge edge{v.cell, C::edge(v.axis, k)};
@@ -89,8 +82,6 @@ class Grower {
         layer_.edges.push_back(edge);
         clear_tag(mesh_, tags_, edge);
       }
-    (above ? top_first : bottom_first) = begin;
-    (above ? top_last : bottom_last) = end;
   }
 
   void clear_marks() {
@@ -110,6 +101,29 @@ class Grower {
     return {mesh_.cell_of(twin), static_cast<std::int8_t>(C::facet_axis(f)),
             static_cast<std::int8_t>(above ? 1 - entered : entered)};
   }
+
+  /// Fills `row` with the cells beside the visits from `first` to `last`: all of them or, if one is refined already, lies
+  /// at the boundary or touches the layer, or if few carry tags, none. A gap would cost two more ends.
+  /// \return the number of their tags.
+  std::size_t next_row(std::size_t first, std::size_t last, bool above, std::vector<LayerCell>& row) const {
+    row.clear();
+    std::size_t tagged = 0;
+    for (std::size_t i = first; i < last; ++i) {
+      const LayerCell v = layer_.visits[i], n = beyond(v, above);
+      const bool seed_has_hull = first > 0 || is_outside(beyond(v, !above));
+      if (!seed_has_hull || !is_outside(n) || !is_outside(beyond(n, above)) || marks_.refined[n.cell] >> n.axis & 1) {
+        row.clear();
+        return 0;
+      }
+      row.push_back(n);
+      for (int k = 0; k < C::edges_per_axis; ++k) tagged += tags_.has(n.cell, C::edge(n.axis, k));
+    }
+    if (tagged < layer_.edges.size()) row.clear();  // inner edges are seen from two cells (four in 3D): half of them
+    return row.empty() ? 0 : tagged;
+  }
+
+  /// True if hull would be between the layer and this cell.
+  bool is_outside(const LayerCell& n) const { return n.cell != kNone && marks_.visited[n.cell] == 0; }
 
   bool surrounded(CellEdge edge) const {
     bool all = true;
@@ -136,12 +150,25 @@ void find_layer(const Mesh<Dim>& mesh, EdgeTags<Dim>& tags, CellEdge seed, const
   grower.use(seed, mesh.cells[seed.cell][Cell<Dim>::edge_to(seed.edge)]);
   grower.follow_tags(0);
   for (int i = 0; i < options.augment; ++i) grower.augment(options.first_new);
-  std::size_t bottom_first = 0, bottom_last = layer.visits.size(), top_first = 0, top_last = bottom_last;
-  for (int i = 1; i < options.thickness; ++i) grower.thicken(bottom_first, bottom_last, top_first, top_last);
+  if (options.thickness > 1) grower.thicken(options.thickness);
   grower.clear_marks();
+}
+
+template <int Dim>
+void mark_refined(const Mesh<Dim>& mesh, const Layer& layer, const BufferLayer<Dim>& insertion,
+                  std::span<const HullFacet<Dim>> facets, LayerMarks& marks) {
+  marks.refined.resize(mesh.cells.size(), 0);
+  for (const LayerCell& v : layer.visits) marks.refined[v.cell] |= static_cast<std::uint8_t>(1 << v.axis);
+  for (Index i = 0; i < insertion.cell_count; ++i)  // a new cell has the axes of the cell inside
+    marks.refined[insertion.first_cell + i] =
+        marks.refined[facets[i].inside] | static_cast<std::uint8_t>(1 << Cell<Dim>::facet_axis(facets[i].facet));
 }
 
 template void find_layer(const Mesh<2>&, EdgeTags<2>&, CellEdge, const LayerOptions&, LayerMarks&, Layer&);
 template void find_layer(const Mesh<3>&, EdgeTags<3>&, CellEdge, const LayerOptions&, LayerMarks&, Layer&);
+template void mark_refined(const Mesh<2>&, const Layer&, const BufferLayer<2>&, std::span<const HullFacet<2>>,
+                           LayerMarks&);
+template void mark_refined(const Mesh<3>&, const Layer&, const BufferLayer<3>&, std::span<const HullFacet<3>>,
+                           LayerMarks&);
 
 }  // namespace pillowmesh

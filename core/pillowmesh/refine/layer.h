@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "pillowmesh/refine/buffer_layer.h"
 #include "pillowmesh/refine/edge_tags.h"
 
 namespace pillowmesh {
@@ -29,9 +30,11 @@ struct Layer {
   std::vector<CellEdge> edges;    ///< the tagged edges that formed it, each once
 };
 
-/// Marks per cell that finding layers needs; all zero between calls, grown on demand.
+/// Marks per cell that finding layers needs, a bit per axis; grown on demand.
 struct LayerMarks {
-  std::vector<std::uint8_t> visited;  ///< bit per axis
+  std::vector<std::uint8_t> visited;  ///< all zero between calls
+  /// Axes along which this iteration has refined the cell already: thicker layers leave such cells out.
+  std::vector<std::uint8_t> refined;
 };
 
 /// Grows the layer of the tagged edge `seed`: through parallel tagged edges as far as they go; the cells at its ends have
@@ -41,9 +44,19 @@ struct LayerMarks {
 ///        .   .   |   |   |   .   .          a  augmented, e  end, o  inner cell
 ///          a   e   o   o   e   a
 ///
+/// With thickness 2 the row beside it that carries more tags is shrunk too, and each row is halved: 2 rows become 4. Only
+/// rows next to the hull are refined. So a row joins as a whole or not at all: not if it is the last before the boundary,
+/// not if this iteration has refined it already, and not if it carries less than half as many tags.
+///
 /// Cost: linear in the layer. \pre tags.has(seed)
 template <int Dim>
 void find_layer(const Mesh<Dim>& mesh, EdgeTags<Dim>& tags, CellEdge seed, const LayerOptions& options,
                 LayerMarks& marks, Layer& layer);
+
+/// Notes what inserting the layer has refined: its cells along their axes, the new cells across the hull.
+/// `insertion` is the buffer layer around it, `facets` its hull. Cost: linear in the layer.
+template <int Dim>
+void mark_refined(const Mesh<Dim>& mesh, const Layer& layer, const BufferLayer<Dim>& insertion,
+                  std::span<const HullFacet<Dim>> facets, LayerMarks& marks);
 
 }  // namespace pillowmesh

@@ -25,12 +25,11 @@ Point<2> cofactor<2>(const std::array<Point<2>, 2>& e, int j) {
 }
 template <>
 Point<3> cofactor<3>(const std::array<Point<3>, 3>& e, int j) {
-  const Point<3>&a = e[(j + 1) % 3], &b = e[(j + 2) % 3];
-  return Point<3>(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+  return vector_product(e[(j + 1) % 3], e[(j + 2) % 3]);
 }
 
 template <int Dim>
-Sample<Dim> sample(const Mesh<Dim>& mesh, const std::vector<CellCorner>& star, VertexId v, double delta) {
+Sample<Dim> sample(const Mesh<Dim>& mesh, const std::vector<CellCorner>& star, double delta) {
   using C = Cell<Dim>;
   Sample<Dim> s;
   std::array<Point<Dim>, Dim> e;
@@ -57,18 +56,17 @@ Sample<Dim> sample(const Mesh<Dim>& mesh, const std::vector<CellCorner>& star, V
       }
       s.gradient += slope / chi * dT - power / (chi * root) * dd;  // d chi / d d = chi / root
     }
-  (void)v;
   return s;
 }
 
 }  // namespace
 
 template <int Dim>
-bool untangle(Mesh<Dim>& mesh, VertexId first, int sweeps) {
+bool untangle(Mesh<Dim>& mesh, std::span<const VertexId> vertices, int sweeps) {
   std::vector<CellCorner> star;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     bool tangled = false;
-    for (VertexId v = first; v < mesh.vertex_count(); ++v) {
+    for (const VertexId v : vertices) {
       if (mesh.support[v].dim == 0) continue;
       vertex_star(mesh, v, star);
       double reach2 = 0.0;
@@ -76,10 +74,10 @@ bool untangle(Mesh<Dim>& mesh, VertexId first, int sweeps) {
         for (int d = 0; d < Dim; ++d)
           reach2 = std::max(reach2, (mesh.points[mesh.cells[c][k ^ (1 << d)]] - mesh.points[v]).squaredNorm());
       const double reach = std::sqrt(reach2), unit = Dim == 2 ? reach2 : reach2 * reach;
-      const double lowest = sample(mesh, star, v, unit).lowest;
+      const double lowest = sample(mesh, star, unit).lowest;
       tangled = tangled || !(lowest > 0);
-      const double delta = std::max(1e-3 * unit, lowest < 0 ? -0.3 * lowest : 0.0);
-      const Sample<Dim> now = sample(mesh, star, v, delta);
+      const double delta = std::max(1e-6 * unit, lowest < 0 ? -0.2 * lowest : 0.0);
+      const Sample<Dim> now = sample(mesh, star, delta);
       const double steepness = std::sqrt(now.gradient.squaredNorm());
       if (!(steepness > 0)) continue;
       const Point<Dim> from = mesh.points[v];
@@ -89,7 +87,7 @@ bool untangle(Mesh<Dim>& mesh, VertexId first, int sweeps) {
         mesh.anchor[v] = anchor;
         mesh.points[v] = slide(*mesh.geometry, mesh.support[v], mesh.anchor[v],
                                Point<Dim>(from - (step / steepness) * now.gradient));
-        if (sample(mesh, star, v, delta).value < now.value) break;
+        if (sample(mesh, star, delta).value < now.value) break;
         mesh.points[v] = from;
         mesh.anchor[v] = anchor;
       }
@@ -99,7 +97,7 @@ bool untangle(Mesh<Dim>& mesh, VertexId first, int sweeps) {
   return false;
 }
 
-template bool untangle(Mesh<2>&, VertexId, int);
-template bool untangle(Mesh<3>&, VertexId, int);
+template bool untangle(Mesh<2>&, std::span<const VertexId>, int);
+template bool untangle(Mesh<3>&, std::span<const VertexId>, int);
 
 }  // namespace pillowmesh

@@ -1,7 +1,9 @@
 #include "pillowmesh/refine/vertex_copies.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "pillowmesh/mesh/jacobian.h"
 #include "pillowmesh/mesh/slide.h"
 #include "pillowmesh/refine/pinched_edges.h"
 
@@ -25,7 +27,8 @@ class VertexPlanner {
   using C = Cell<Dim>;
 
   VertexPlanner(const Mesh<Dim>& mesh, const Hull<Dim>& hull, double shrink, CopyPlan<Dim>& plan)
-      : mesh_(mesh), hull_(hull), shrink_(shrink), plan_(plan), star_(plan.star), component_(plan.component) {}
+      : mesh_(mesh), hull_(hull), shrink_(shrink), plan_(plan), star_(plan.star), component_(plan.component),
+        normals_(plan.normals) {}
 
   Status run(VertexId v) {
     vertex_star(mesh_, v, star_);
@@ -124,6 +127,7 @@ class VertexPlanner {
       return Status::illegal("a corner of the domain would have to be duplicated at vertex " + std::to_string(v));
     const VertexId id = mesh_.vertex_count() + static_cast<Index>(plan_.copies.size());
     made.position = place(v, component, inside, made.support);
+    if (inside) turn_inwards(v, component, made.position);
     made.anchor = anchor_on(mesh_, made.support, v, made.position);
     if (made.support.dim > 0 && made.support.dim < Dim) {
       if (made.anchor == kNone)
@@ -222,6 +226,48 @@ class VertexPlanner {
     return count > 0 ? Point<Dim>(origin + sum / count) : origin;
   }
 
+  /// Where a copy would not lie inside of all hull facets at v (mixed convex and re-entrant hulls), turns its direction
+  /// towards the one that is most normal to them: the worst facet's normal is added until none is left behind.
+  void turn_inwards(VertexId v, int component, Point<Dim>& position) {
+    constexpr double well_inside = 0.15;
+    normals_.clear();
+    for (int i = 0; i < static_cast<int>(star_.size()); ++i) {
+      if (component_[i] != component) continue;
+      const auto [c, corner] = star_[i];
+      std::array<Point<Dim>, Dim> e;
+      for (int d = 0; d < Dim; ++d) e[d] = mesh_.points[mesh_.cells[c][corner ^ (1 << d)]] - mesh_.points[v];
+      for (int axis = 0; axis < Dim; ++axis) {
+        if (!hull_.is_hull(c, C::facet(axis, (corner >> axis) & 1))) continue;
+        Point<Dim> n;
+        if constexpr (Dim == 2)
+          n = Point<2>(-e[1 - axis][1], e[1 - axis][0]);
+        else
+          n = vector_product(e[(axis + 1) % 3], e[(axis + 2) % 3]);
+        if (n.dot(e[axis]) < 0) n = -n;
+        normals_.push_back(n / std::sqrt(n.squaredNorm()));
+      }
+    }
+    const Point<Dim>& origin = mesh_.points[v];
+    const double length = std::sqrt((position - origin).squaredNorm());
+    if (normals_.empty() || !(length > 0)) return;
+    Point<Dim> direction = (position - origin) / length, best = direction;
+    double best_angle = -2.0;
+    for (int turn = 0; turn < 40 && best_angle < well_inside; ++turn) {
+      const Point<Dim>* worst = &normals_[0];
+      for (const auto& n : normals_)
+        if (n.dot(direction) < worst->dot(direction)) worst = &n;
+      if (worst->dot(direction) > best_angle) {
+        best_angle = worst->dot(direction);
+        best = direction;
+      }
+      direction += 0.4 * *worst;
+      const double norm = std::sqrt(direction.squaredNorm());
+      if (!(norm > 1e-6)) break;
+      direction /= norm;
+    }
+    position = origin + length * best;
+  }
+
   /// True if the edge (c, corner, axis) lies on the entity of `support`.
   bool stays_on(VertexSupport w, VertexSupport support, CellId c, int corner, int axis) const {
     if (w.dim == Dim) return false;
@@ -249,6 +295,7 @@ class VertexPlanner {
   CopyPlan<Dim>& plan_;
   std::vector<CellCorner>& star_;
   std::vector<int>& component_;
+  std::vector<Point<Dim>>& normals_;
 };
 
 }  // namespace

@@ -35,6 +35,7 @@ struct CopyPlan {
   std::vector<CellCorner> star;
   std::vector<int> component;
   std::vector<VertexId> on_hull;
+  std::vector<Point<Dim>> normals;
 };
 
 /// Decides the copies of every hull vertex v. Around v the shrink set S and the outside O fall into components, the fans

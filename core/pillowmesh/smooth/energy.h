@@ -74,10 +74,6 @@ inline Point<Dim> multiply(const SymTensor<Dim>& M, const Point<Dim>& v) {
   return out;
 }
 
-inline Point<3> vector_product(const Point<3>& a, const Point<3>& b) {
-  return Point<3>(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
-}
-
 /// Cofactor vectors c_j of A: c_j . e_j = det A.
 inline Frame<2> cofactors(const Frame<2>& e) {
   return {{Point<2>(e[1][1], -e[1][0]), Point<2>(-e[0][1], e[0][0])}};
