@@ -158,6 +158,10 @@ struct Adapter<Dim>::State {
     // The cells of the layer too: one that is inside a thick or winding layer lost its tags without being refined.
     for (const CellId c : layer.cells) tagging.look_again(c);
     for (const CellId changed : buffer_layer.changed) tagging.look_again(changed);
+    for (const VertexId v : buffer_layer.moved) {  // made room: all edges there have changed
+      vertex_star(mesh, v, pillow.plan.star);
+      for (const CellCorner& at : pillow.plan.star) tagging.look_again(at.cell);
+    }
     recorder.buffer_layer(mesh, buffer_layer, iteration);
     ++inserted;
     if (++layers % 64 == 0) report_progress("inserting layers");
