@@ -307,7 +307,7 @@ TEST_CASE("Deflate streams of all three kinds expand, and damaged ones are refus
   const std::string fixed = unhex("78da2b2c4d4c5128a42d010021af23dd");
   // Python: zlib.compress(" ".join(str(i * i % 251) for i in range(256)).encode(), 9)
   std::string squares;
-  for (int i = 0; i < 256; ++i) squares += (i == 0 ? "" : " ") + std::to_string(i * i % 251);
+  for (int i = 0; i < 256; ++i) squares.append(i == 0 ? "" : " ").append(std::to_string(i * i % 251));
   const std::string dynamic = unhex(
       "78da3d938b91033108435b510906fcedbfb17b623337936437b60021c45068ea29b672a9b6e6d39ebaa11843913ce7e416c4"
       "030206d4d52945703f7d3e9455caa30332b9e199fcadd0bd608e725cbeba4bb1923b6a9238805f122c3ddeced2d14b5e383a"
@@ -333,5 +333,5 @@ TEST_CASE("Deflate streams of all three kinds expand, and damaged ones are refus
     out.clear();
     CHECK_FALSE(inflate_zlib(dynamic.substr(0, n), squares.size(), out));
   }
-  CHECK_FALSE(inflate_zlib("\x79" + fixed.substr(1), 100, out));
+  CHECK_FALSE(inflate_zlib(unhex("79") + fixed.substr(1), 100, out));
 }
