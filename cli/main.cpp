@@ -20,8 +20,10 @@ int fail(const Status& status) {
 namespace {
 
 constexpr const char* kMeshHelp =
-    "Meshes: .mesh .meshb (Medit), .msh (Gmsh 2.2 and 4.1), .vtk, .vtu; all quads or all hexahedra; or\n"
-    "grid:NX,NY[,NZ]:X0,X1,Y0,Y1[,Z0,Z1].\n";
+    "Meshes: .mesh .meshb (Medit), .msh (Gmsh 2.2 and 4.1), .vtk, .vtu; all quads or all hexahedra; or one that is\n"
+    "made, in 3D with the parts in brackets: grid:NX,NY[,NZ]:X0,X1,Y0,Y1[,Z0,Z1]; disk or cylinder\n"
+    "ogrid:N,M[,NZ]:R[,Z0,Z1]; ring or tube ring:N,M[,NZ]:R0,R1[,Z0,Z1]; square or box without a quarter disk or\n"
+    "cylinder quarter:N,M[,NZ]:R,S[,Z0,Z1]; L or L-prism lprism:N,M[,NZ]:S,A[,Z0,Z1]. N cells one way, M the other.\n";
 constexpr const char* kMetricHelp =
     "Metric: statements `name = expression;` over x, y, z, r = |(x,y,z)|, pi and earlier names, with + - * / ^,\n"
     "comparison, if(c,a,b), sqrt exp log sin cos tan atan2 asin acos tanh abs min max pow floor. The result is `h`;\n"
@@ -54,7 +56,7 @@ constexpr OptionHelp kOptions[] = {
     {"smooth", "none|end|between", "When vertices are relocated (default end; between: after each iteration too)"},
     {"dice", "N", "Refine N times coarser, then split each cell in N^dim (default 1)"},
     {"thickness", "K", "Cells across a layer at its seed (default 1)"},
-    {"augment", "N", "Rings of cells added at the ends of a layer (default 1)"},
+    {"augment", "N", "Rings of cells added at the ends of a layer, or auto (default): 1 in 2D, 0 in 3D"},
     {"max-cells", "N", "Stop with a valid mesh before it has more cells (default 10000000)"},
     {"max-iterations", "N", "Iterations at the most (default 30)"},
     {"max-sweeps", "N", "Sweeps of the smoother at the most, each time it runs (default 200)"},

@@ -44,6 +44,7 @@ struct Adapter<Dim>::State {
   Stage stage = Stage::tag;
   Status outcome;
   int iteration = 0;
+  int augment = 0;
   CellId first_new = 0;  ///< cells from here on were made in this iteration
   Tagging<Dim> tagging;
   EdgeTags<Dim> tags;
@@ -72,6 +73,7 @@ struct Adapter<Dim>::State {
         target(o.dice > 1 ? field.scaled(o.dice) : field),
         options(o),
         context(std::move(c)),
+        augment(options.augment >= 0 ? options.augment : (Dim == 2 ? 1 : 0)),
         tagging(mesh, options.threshold),
         recorder(options.record) {
     outcome = field.check(mesh.points);
@@ -129,7 +131,7 @@ struct Adapter<Dim>::State {
     const CellId c = seeds[next_seed];
     int e = 0;
     while (!tags.has(c, e)) ++e;
-    find_layer(mesh, tags, {c, e}, {options.augment, options.thickness, first_new}, layer_marks, layer);
+    find_layer(mesh, tags, {c, e}, {augment, options.thickness, first_new}, layer_marks, layer);
     if (mesh.cell_count() + static_cast<std::int64_t>(Cell<Dim>::facets * layer.cells.size()) > options.max_cells) {
       outcome = Status::limit_not_met("stopped before the mesh would have had more than " +
                                       std::to_string(options.max_cells) + " cells");

@@ -36,6 +36,7 @@ Status set_option(AdaptOptions& options, std::string_view name, std::string_view
   if (name == "threshold") return read_real(name, value, 1.0, 1e6, "above 1", options.threshold);
   if (name == "dice") return read_whole(name, value, 1, 16, options.dice);
   if (name == "thickness") return read_whole(name, value, 1, 16, options.thickness);
+  if (name == "augment" && value == "auto") return options.augment = -1, Status{};
   if (name == "augment") return read_whole(name, value, 0, 16, options.augment);
   if (name == "max-iterations") return read_whole(name, value, 1, 1000, options.max_iterations);
   if (name == "max-cells") return read_whole(name, value, 1, 500'000'000, options.max_cells);

@@ -24,8 +24,9 @@ struct AdaptOptions {
   int dice = 1;
   /// Cells across a layer at its seed: 1 as in the paper, 2 as Schneiders.
   int thickness = 1;
-  /// Rings of cells added at the ends of each layer ("layers are augmented by their immediate neighbours").
-  int augment = 1;
+  /// Rings of cells added at the ends of each layer ("layers are augmented by their immediate neighbours"). -1: one in
+  /// 2D, none in 3D, where a ring costs many cells.
+  int augment = -1;
   /// Iterations of the paper's loop (steps 1 to 4) at the most.
   int max_iterations = 30;
   /// The run stops with a valid mesh before it would pass this many cells.

@@ -98,11 +98,26 @@ Point<Dim> step_along(const Tangent<Dim>& t, const Derivatives<Dim>& d) {
   return step;
 }
 
+template <int Dim>
+double target_length(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
+  if constexpr (Dim == 2) {
+    return 0.955;
+  } else {
+    const auto edges = unique_edges(mesh);
+    double sum = 0.0;
+    for (const auto& [a, b] : edges) {
+      const Point<Dim> e = mesh.points[b] - mesh.points[a];
+      sum += std::sqrt(dot(field.evaluate(Point<Dim>(0.5 * (mesh.points[a] + mesh.points[b]))), e, e));
+    }
+    return std::min(std::sqrt(sum / static_cast<double>(edges.size())), 1.0);
+  }
+}
+
 }  // namespace
 
 template <int Dim>
 Relocator<Dim>::Relocator(Mesh<Dim>& mesh, const MetricField<Dim>& field, RelocateOptions options)
-    : mesh_(mesh), field_(field.scaled(options.target_length)), options_(options) {
+    : mesh_(mesh), field_(field.scaled(options.target_length > 0 ? options.target_length : target_length(mesh, field))), options_(options) {
   metric_.resize(mesh.points.size());
   active_.assign(mesh.points.size(), 0);
   std::array<SymTensor<Dim>, 256> batch;
