@@ -84,6 +84,26 @@ inline Mesh<2> ell(int n) {
   return *make_mesh(in);
 }
 
+/// A strip of n x m quads a turn, wound up so that column 0 continues row j in row j + 1: all m rows are one dual chord,
+/// which lies beside itself, and a layer through it has rows inside that touch no hull.
+inline Mesh<2> snail(int n, int m) {
+  MeshInput<2> in;
+  const auto vertex = [&](int i, int j) {
+    if (i == n && j < m) return j + 1;  // the same as (0, j + 1)
+    return i == 0 ? j : i == n ? m + 1 : m + 2 + (i - 1) * (m + 1) + j;
+  };
+  in.points.resize(m + 2 + (n - 1) * (m + 1));
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= m; ++j) {
+      const double turn = 2 * 3.14159265358979 * i / n, radius = 2 + j + 1.0 * i / n;
+      in.points[vertex(i, j)] = Point<2>(radius * std::cos(turn), radius * std::sin(turn));
+    }
+  for (int j = 0; j < m; ++j)
+    for (int i = 0; i < n; ++i)
+      in.cells.push_back({vertex(i + 1, j), vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+  return *make_mesh(in);
+}
+
 template <int Dim>
 std::vector<Named<Dim>> meshes() {
   std::vector<Named<Dim>> out;
@@ -97,6 +117,7 @@ std::vector<Named<Dim>> meshes() {
     out.push_back({"star of 5", star(5, 3)});
     out.push_back({"star of 7", star(7, 2)});
     out.push_back({"L", ell(6)});
+    out.push_back({"snail", snail(12, 3)});
   } else {
     out.push_back({"cube 4", make_grid<3>({4, 4, 4}, Point<3>(0, 0, 0), Point<3>(1, 1, 1))});
     out.push_back({"shaken cube", shaken(make_grid<3>({5, 5, 5}, Point<3>(0, 0, 0), Point<3>(5, 5, 5)), 1.0, 0.2, 3)});
