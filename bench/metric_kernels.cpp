@@ -12,7 +12,7 @@ using namespace pillowmesh;
 
 MetricField<2> field_of(const char* name) { return *MetricField<2>::from_formula(find_case(name)->formula); }
 
-Mesh<2> mesh_of(const char* name) { return std::get<Mesh<2>>(*parse_grid(find_case(name)->mesh)); }
+Mesh<2> mesh_of(const char* name) { return std::get<Mesh<2>>(*parse_primitive(find_case(name)->mesh)); }
 
 /// A grid of n x n cells on the case's domain.
 Mesh<2> fine_mesh_of(const char* name, int n) {

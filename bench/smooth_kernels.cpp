@@ -16,7 +16,7 @@ void sweep(benchmark::State& state, const char* name) {
   const auto field = *MetricField<2>::from_formula(example.formula);
   AdaptOptions options;
   options.smoothing = Smoothing::none;
-  Adapter<2> adapter(std::get<Mesh<2>>(*parse_grid(example.mesh)), field, options);
+  Adapter<2> adapter(std::get<Mesh<2>>(*parse_primitive(example.mesh)), field, options);
   if (!adapter.run().ok()) state.SkipWithError("the layers could not be inserted");
   std::int64_t moved = 0;
   for (auto _ : state) {

@@ -10,7 +10,7 @@ namespace pillowmesh::cli {
 
 /// Where mesh and metric come from.
 struct ProblemFlags {
-  std::string input;      ///< a file, grid:..., or empty: the mesh of the case
+  std::string input;      ///< a file, a primitive (grid:...), or empty: the mesh of the case
   std::string metric;     ///< a formula
   std::string case_name;  ///< a name of the gallery
   double size_scale = 1.0;

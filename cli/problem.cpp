@@ -53,7 +53,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
 }
 
 Expected<AnyMesh> load_mesh(const std::string& input) {
-  return input.starts_with("grid:") ? parse_grid(input) : read_mesh_file(input);
+  return is_primitive(input) ? parse_primitive(input) : read_mesh_file(input);
 }
 
 Expected<AnyMesh> problem_mesh(const ProblemFlags& flags) {
@@ -65,7 +65,7 @@ Expected<AnyMesh> problem_mesh(const ProblemFlags& flags) {
   if (!flags.case_name.empty()) {
     auto c = named_case(flags.case_name);
     if (!c) return c.status();
-    if (flags.input.empty()) return parse_grid((*c)->mesh);
+    if (flags.input.empty()) return parse_primitive((*c)->mesh);
   }
   if (flags.input.empty()) return Status::usage("a mesh is missing: give a file, grid:... or --case NAME");
   return load_mesh(flags.input);

@@ -10,7 +10,7 @@
 
 namespace pillowmesh::cli {
 
-/// A mesh file or `grid:...`.
+/// A mesh file or a primitive, `grid:...`.
 Expected<AnyMesh> load_mesh(const std::string& input);
 
 /// The mesh that the flags name.

@@ -11,7 +11,7 @@ using namespace pillowmesh;
 int main() {
   const Case& example = *find_case("circle2d");
   const auto field = MetricField<2>::from_formula(example.formula);
-  const auto mesh = parse_grid(example.mesh);
+  const auto mesh = parse_primitive(example.mesh);
 
   AdaptOptions options;
   options.record = true;

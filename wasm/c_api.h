@@ -58,7 +58,7 @@ PM_API(pm_byte_count) uint32_t pm_byte_count(const pm_session* session);
 /// A mesh file in memory; the ending of `name` chooses the format.
 PM_API(pm_load_file)
 pm_status pm_load_file(pm_session* session, const char* name, uint32_t name_size, const char* bytes, uint32_t size);
-/// "grid:7,9:0,7,0,9", see mesh/primitives.h.
+/// "grid:7,9:0,7,0,9", "ogrid:4,2:1", ...: see parse_primitive in mesh/primitives.h.
 PM_API(pm_load_grid) pm_status pm_load_grid(pm_session* session, const char* spec, uint32_t size);
 /// A case of the gallery: its mesh and its metric.
 PM_API(pm_load_case) pm_status pm_load_case(pm_session* session, const char* name, uint32_t size);

@@ -1,5 +1,6 @@
 #include "pillowmesh/metric/gallery.h"
 
+#include <cmath>
 #include <set>
 #include <string>
 #include <variant>
@@ -7,13 +8,14 @@
 #include "../catch.h"
 #include "pillowmesh/mesh/primitives.h"
 #include "pillowmesh/metric/field.h"
+#include "pillowmesh/metric/volume.h"
 
 using namespace pillowmesh;
 
 TEST_CASE("every case has a mesh on which its metric can be used") {
   for (const Case& c : gallery()) {
     CAPTURE(std::string(c.name));
-    const Expected<AnyMesh> mesh = parse_grid(c.mesh);
+    const Expected<AnyMesh> mesh = parse_primitive(c.mesh);
     REQUIRE(mesh);
     const auto check = [&]<int Dim>(const Mesh<Dim>& m) {
       CHECK(c.dim == Dim);
@@ -84,4 +86,44 @@ TEST_CASE("sphere3d-paper rotates in the order that the paper prints") {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) CHECK(M(i, j) == Approx(wanted(i, j)).margin(1e-9));
   }
+}
+
+TEST_CASE("the polar cases are thin along the radius of the hole, on the hole") {
+  const Point<3> p(0.3, 0.4, 0.7), outward(0.6, 0.8, 0), around(-0.8, 0.6, 0), up(0, 0, 1);
+  for (const char* name : {"polar-1", "polar-2"}) {
+    const SymTensor<3> M = (*MetricField<3>::from_formula(find_case(name)->formula)).evaluate(p);
+    CHECK(dot(M, outward, outward) == Approx(1e6));
+    CHECK(dot(M, up, up) == Approx(100.0));
+    CHECK(dot(M, outward, around) == Approx(0.0).margin(1e-6));
+    CHECK(dot(M, around, around) == Approx(name[6] == '1' ? 100.0 : 1600.0));  // h_t = 0.1, or 1/40 on the hole
+  }
+}
+
+TEST_CASE("the ideal number of hexahedra of the cases is that of their formulas") {
+  // cube-linear: the integral of 100 / h_z, 100 ln(100) / 0.099 = 4651.7. polar-1 and polar-2: midpoint rule in
+  // log h_r over the square minus the quarter disk; the mesh's arc is a polygon up to
+  // 0.001 inside it: about half a layer of the thinnest cells more.
+  const double h0 = 0.001, slope = 0.198, pi = 3.14159265358979;
+  const auto polar = [&](bool second) {
+    double sum = 0.0;
+    const int n = 100, m = 400;
+    for (int i = 0; i < n; ++i) {
+      const double angle = (i + 0.5) / n * pi / 2;
+      const double across = std::log((h0 + slope * (1 / std::max(std::cos(angle), std::sin(angle)) - 0.5)) / h0);
+      for (int j = 0; j < m; ++j) {
+        const double r = 0.5 + h0 * (std::exp((j + 0.5) / m * across) - 1) / slope;
+        const double ht = second && r < 0.6 ? 0.25 * (0.6 - r) + 0.1 * (1 - 10 * (0.6 - r)) : 0.1;
+        sum += r / (0.1 * ht * slope) * across / m * pi / 2 / n;
+      }
+    }
+    return sum;
+  };
+  const auto measured = [](const char* name) {
+    const Case& c = *find_case(name);
+    return complexity(std::get<Mesh<3>>(*parse_primitive(c.mesh)), *MetricField<3>::from_formula(c.formula),
+                      VolumeOptions{.tolerance = 1e-3, .panel = 0.02});
+  };
+  CHECK(measured("cube-linear") == Approx(100 * std::log(100.0) / 0.099).epsilon(0.01));
+  CHECK(measured("polar-1") == Approx(1.04 * polar(false)).epsilon(0.04));
+  CHECK(measured("polar-2") == Approx(1.04 * polar(true)).epsilon(0.04));
 }

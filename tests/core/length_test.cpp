@@ -69,7 +69,7 @@ TEST_CASE("a panel finds a ring that falls between the sample points") {
 TEST_CASE("the length does not depend on the direction or on the other edges") {
   const Case* c = find_case("circle2d");
   const auto f = field(c->formula);
-  const auto mesh = std::get<Mesh<2>>(*parse_grid(c->mesh));
+  const auto mesh = std::get<Mesh<2>>(*parse_primitive(c->mesh));
   const auto edges = unique_edges(mesh);
   std::vector<double> lengths(edges.size());
   edge_lengths<2>(f, mesh.points, edges, lengths, {.panel = 0.05});
@@ -85,7 +85,7 @@ TEST_CASE("lengths are within the tolerance of those ten thousand times as exact
   for (const char* name : {"iso2d", "aniso2d", "circle2d", "masabl-1"}) {
     const Case* c = find_case(name);
     const auto f = field(c->formula);
-    const auto mesh = std::get<Mesh<2>>(*parse_grid(c->mesh));
+    const auto mesh = std::get<Mesh<2>>(*parse_primitive(c->mesh));
     for (const auto& [a, b] : unique_edges(mesh)) {
       const double exact = edge_length(f, mesh.points[a], mesh.points[b], {.tolerance = 1e-12, .panel = 0.01});
       CHECK(edge_length(f, mesh.points[a], mesh.points[b]) == Approx(exact).epsilon(1e-6));
@@ -114,7 +114,7 @@ TEST_CASE("tags are what the lengths say") {
   };
   for (const Case& c : gallery()) {
     CAPTURE(std::string(c.name));
-    const AnyMesh mesh = *parse_grid(c.mesh);
+    const AnyMesh mesh = *parse_primitive(c.mesh);
     if (c.dim == 2) {
       check(c, std::get<Mesh<2>>(mesh));
     } else {

@@ -1,4 +1,4 @@
-#include "pillowmesh/metric/portable_math.h"
+#include "pillowmesh/mesh/portable_math.h"
 
 #include <bit>
 #include <cmath>

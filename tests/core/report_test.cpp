@@ -14,7 +14,7 @@ namespace {
 
 Report measure_case(const char* name) {
   const Case* c = find_case(name);
-  const AnyMesh mesh = *parse_grid(c->mesh);
+  const AnyMesh mesh = *parse_primitive(c->mesh);
   if (c->dim == 2) return measure(std::get<Mesh<2>>(mesh), *MetricField<2>::from_formula(c->formula));
   return measure(std::get<Mesh<3>>(mesh), *MetricField<3>::from_formula(c->formula));
 }

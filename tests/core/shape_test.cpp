@@ -100,12 +100,12 @@ TEST_CASE("both shapes agree where the metric is uniform") {
 TEST_CASE("the paper's initial shapes are reproduced") {
   // paper-notes.md: [Paper] Tables 2 and 4, printed .229 .730 1.00 .280 and .815 .895 .94 .056.
   const Case& aniso = *find_case("aniso2d");
-  check_row(shapes(std::get<Mesh<2>>(*parse_grid(aniso.mesh)), aniso.formula).flat, .2292, .7318, .9986, .2801, 6e-5);
+  check_row(shapes(std::get<Mesh<2>>(*parse_primitive(aniso.mesh)), aniso.formula).flat, .2292, .7318, .9986, .2801, 6e-5);
   const Case& linear = *find_case("linear3d");
-  const auto s = shapes(std::get<Mesh<3>>(*parse_grid(linear.mesh)), linear.formula);
+  const auto s = shapes(std::get<Mesh<3>>(*parse_primitive(linear.mesh)), linear.formula);
   check_row(s.flat, .8145, .8948, .9441, .0556, 6e-5);
   // By 12-point Gauss rules: .93916 .96711 .98386 .01780.
   check_row(s.integral, .93916, .96711, .98386, .01780, 1e-4);
   const Case& iso = *find_case("iso2d");
-  check_row(shapes(std::get<Mesh<2>>(*parse_grid(iso.mesh)), iso.formula).integral, .535, .868, 1.02, .147, 2e-3);
+  check_row(shapes(std::get<Mesh<2>>(*parse_primitive(iso.mesh)), iso.formula).integral, .535, .868, 1.02, .147, 2e-3);
 }

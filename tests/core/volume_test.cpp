@@ -72,7 +72,7 @@ TEST_CASE("a panel finds a feature between the sample points") {
 TEST_CASE("the complexity of a case is the ideal number of cells of method.md") {
   const auto of = [](const char* name, double tolerance) {
     const Case* c = find_case(name);
-    const AnyMesh mesh = *parse_grid(c->mesh);
+    const AnyMesh mesh = *parse_primitive(c->mesh);
     const VolumeOptions options{.tolerance = tolerance, .panel = 0.1};
     if (c->dim == 2) return complexity(std::get<Mesh<2>>(mesh), *MetricField<2>::from_formula(c->formula), options);
     return complexity(std::get<Mesh<3>>(mesh), *MetricField<3>::from_formula(c->formula), options);

@@ -46,6 +46,13 @@ constexpr Case kCases[] = {
      "h1 = 0.2;\nh2 = 0.2;\nh3 = 0.002 + 0.198*z", "own"},
     {"cube-linear", 3, "A flat layer in the middle of a cube", "grid:10,10,10:0,1,0,1,0,1",
      "h1 = 0.1;\nh2 = 0.1;\nh3 = 0.001 + 2*(0.1 - 0.001)*abs(z - 0.5)", "UGAWG, cube-linear"},
+    {"polar-1", 3, "A thin layer on the hole in a cube", "quarter:6,5,10:0.5,1,0,1",
+     "d = sqrt(x^2 + y^2);\ntheta = atan2(y, x);\nh1 = 0.001 + 2*(0.1 - 0.001)*abs(d - 0.5);\nh2 = 0.1;\nh3 = 0.1",
+     "UGAWG, cube-cylinder, polar-1"},
+    {"polar-2", 3, "The same layer, with cells that follow the hole's curvature", "quarter:6,5,10:0.5,1,0,1",
+     "d = sqrt(x^2 + y^2);\ntheta = atan2(y, x);\nh1 = 0.001 + 2*(0.1 - 0.001)*abs(d - 0.5);\n"
+     "t = 10*(0.6 - d);\nh2 = if(t < 0, 0.1, t/40 + 0.1*(1 - t));\nh3 = 0.1",
+     "UGAWG, cube-cylinder, polar-2"},
 };
 
 #undef PILLOWMESH_SIZE_ALONG_X

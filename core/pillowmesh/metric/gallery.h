@@ -10,7 +10,7 @@ struct Case {
   std::string_view name;
   int dim;
   std::string_view title;    ///< one line for lists
-  std::string_view mesh;     ///< grid:... (mesh/primitives.h)
+  std::string_view mesh;     ///< grid:..., quarter:... (mesh/primitives.h)
   std::string_view formula;  ///< metric formula (metric/expression.h)
   std::string_view source;   ///< where it comes from, e.g. "[Paper] Eqs. (2), (3)"
 };

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pillowmesh/metric/portable_math.h"
+#include "pillowmesh/mesh/portable_math.h"
 
 namespace pillowmesh::operations {
 

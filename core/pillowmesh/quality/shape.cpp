@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pillowmesh/metric/portable_math.h"
+#include "pillowmesh/mesh/portable_math.h"
 #include "pillowmesh/metric/volume.h"
 
 namespace pillowmesh {
