@@ -2,11 +2,14 @@
 // Anisotropic Metric" ([Paper]); `step` below is the loop of its section 4.
 #include "pillowmesh/adapt/adapter.h"
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 
 #include "pillowmesh/adapt/recorder.h"
 #include "pillowmesh/adapt/tagging.h"
+#include "pillowmesh/mesh/jacobian.h"
+#include "pillowmesh/metric/length.h"
 #include "pillowmesh/refine/balance.h"
 #include "pillowmesh/refine/dice.h"
 #include "pillowmesh/refine/layer.h"
@@ -58,6 +61,8 @@ struct Adapter<Dim>::State {
   BufferLayer<Dim> buffer_layer;
   std::optional<Relocator<Dim>> relocator;
   int sweeps = 0;
+  bool smoothed = false;  ///< the last smoothing is done; only a look at the lengths is left
+  int rounds = 0;         ///< of refinement and last smoothing
 
   Recorder<Dim> recorder;
   std::map<std::string, double> seconds;
@@ -78,6 +83,11 @@ struct Adapter<Dim>::State {
         recorder(options.record) {
     outcome = field.check(mesh.points);
     if (!outcome.ok()) stage = Stage::done;
+    if constexpr (Dim == 3) {  // no layer may leave a worse cell than the input has, nor a bad one
+      pillow.quality_floor = 0.02;
+      for (CellId c = 0; c < mesh.cell_count(); ++c)
+        pillow.quality_floor = std::min(pillow.quality_floor, min_scaled_jacobian(mesh, c));
+    }
   }
 
   bool step() {
@@ -103,19 +113,29 @@ struct Adapter<Dim>::State {
     const Stopwatch watch(refine_seconds);
     report_progress("finding long edges");
     seeds = tagging.tag_long_edges(mesh, target, tags);
+    if (smoothed && seeds.empty()) {
+      stage = Stage::done;
+      report_progress("done");
+      return;
+    }
     const bool again = iteration == 0 || inserted > 0;
     if (seeds.empty() || !again || iteration == options.max_iterations) {
       if (!seeds.empty())
         outcome = Status::limit_not_met(
             again ? "edges longer than the threshold remain after " + std::to_string(iteration) + " iterations"
                   : "edges longer than the threshold remain where no layer can be inserted");
+      if (smoothed) {
+        stage = Stage::done;
+        return;
+      }
       stage = options.dice > 1 ? Stage::dice : Stage::smooth_end;
       begin_smoothing();
       return;
     }
+    smoothed = false;
     balance_tags<Dim>(mesh, tags, seeds);
     tagging.collect_tagged_cells(mesh, tags, seeds);
-    recorder.tags(mesh, tags, iteration);
+    recorder.tags(mesh, tags, iteration, options.record ? longest_edge() : 0.0);
     next_seed = 0;
     first_new = mesh.cell_count();
     inserted = refused = 0;
@@ -182,13 +202,20 @@ struct Adapter<Dim>::State {
   void end_iteration() {
     ++iteration;
     ++iterations;
-    recorder.iteration(mesh, iteration);
+    recorder.iteration(mesh, iteration, options.record ? longest_edge() : 0.0);
     if (options.smoothing == Smoothing::between && inserted > 0) {
       stage = Stage::smooth_between;
       begin_smoothing();
     } else {
       stage = Stage::tag;
     }
+  }
+
+  double longest_edge() const {
+    const auto edges = unique_edges(mesh);
+    std::vector<double> lengths(edges.size());
+    edge_lengths<Dim>(target, mesh.points, edges, lengths, {1e-3, 0.0, 6});
+    return *std::max_element(lengths.begin(), lengths.end());
   }
 
   void begin_smoothing() {
@@ -211,10 +238,19 @@ struct Adapter<Dim>::State {
   }
 
   void end_smoothing(Stage next) {
-    if (next == Stage::tag && sweeps > 0) tagging.look_at_all(mesh);
+    const bool moved = sweeps > 0;
+    if (moved) tagging.look_at_all(mesh);
     relocator.reset();
     stage = next;
-    if (next == Stage::done) report_progress("done");
+    if (next != Stage::done) return;
+    // The last smoothing may have made edges too long again: then once more from step 1, a few times at the most.
+    if (moved && outcome.ok() && rounds++ < 3) {
+      smoothed = true;
+      inserted = 1;
+      stage = Stage::tag;
+      return;
+    }
+    report_progress("done");
   }
 
   void dice_all() {
@@ -234,6 +270,8 @@ struct Adapter<Dim>::State {
         outcome = Status::limit_not_met("not diced: " + s.message);
       tags.mask.assign(mesh.cells.size(), 0);
     }
+    target = field;
+    options.dice = 1;
     stage = Stage::smooth_end;
     begin_smoothing();
   }

@@ -26,9 +26,10 @@ Event<Dim>& Recorder<Dim>::add(EventKind kind, const Mesh<Dim>& mesh, int iterat
 }
 
 template <int Dim>
-void Recorder<Dim>::tags(const Mesh<Dim>& mesh, const EdgeTags<Dim>& tags, int iteration) {
+void Recorder<Dim>::tags(const Mesh<Dim>& mesh, const EdgeTags<Dim>& tags, int iteration, double longest_edge) {
   if (!on_) return;
   Event<Dim>& event = add(EventKind::tags, mesh, iteration);
+  event.value = longest_edge;
   for (CellId c = 0; c < mesh.cell_count(); ++c)
     for (int e = 0; e < Cell<Dim>::edges; ++e)
       if (tags.has(c, e) && represents_edge(mesh, {c, e}))
@@ -88,8 +89,8 @@ void Recorder<Dim>::buffer_layer(const Mesh<Dim>& mesh, const BufferLayer<Dim>& 
 }
 
 template <int Dim>
-void Recorder<Dim>::iteration(const Mesh<Dim>& mesh, int iteration) {
-  if (on_) add(EventKind::iteration, mesh, iteration);
+void Recorder<Dim>::iteration(const Mesh<Dim>& mesh, int iteration, double longest_edge) {
+  if (on_) add(EventKind::iteration, mesh, iteration).value = longest_edge;
 }
 
 template <int Dim>

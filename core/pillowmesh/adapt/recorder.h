@@ -12,14 +12,14 @@ class Recorder {
  public:
   explicit Recorder(bool on) : on_(on) {}
 
-  void tags(const Mesh<Dim>& mesh, const EdgeTags<Dim>& tags, int iteration);
+  void tags(const Mesh<Dim>& mesh, const EdgeTags<Dim>& tags, int iteration, double longest_edge);
   /// Before the insertion. `hull` is used as a workspace.
   void layer(const Mesh<Dim>& mesh, const Layer& layer, Hull<Dim>& hull, int iteration);
   /// The last layer was refused: forget it.
   void drop_last();
   /// After the insertion: the shrink and connect events.
   void buffer_layer(const Mesh<Dim>& mesh, const BufferLayer<Dim>& layer, int iteration);
-  void iteration(const Mesh<Dim>& mesh, int iteration);
+  void iteration(const Mesh<Dim>& mesh, int iteration, double longest_edge);
   void before_relocation(const Mesh<Dim>& mesh);
   void relocation(const Mesh<Dim>& mesh, int iteration, double energy);
   void before_dice(const Mesh<Dim>& mesh);

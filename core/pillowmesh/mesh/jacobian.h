@@ -1,6 +1,8 @@
 // Corner Jacobians: the sign that decides whether a cell is inside out.
 #pragma once
 
+#include <cmath>
+
 #include "pillowmesh/mesh/mesh.h"
 
 namespace pillowmesh {
@@ -33,6 +35,20 @@ double min_corner_jacobian(const Mesh<Dim>& mesh, CellId c) {
   double lowest = corner_jacobian<Dim>(0, position);
   for (int k = 1; k < Cell<Dim>::corners; ++k) {
     const double j = corner_jacobian<Dim>(k, position);
+    if (!(j >= lowest)) lowest = j;
+  }
+  return lowest;
+}
+
+/// The smallest of the corner Jacobians of cell c, each divided by the lengths of its edges: 1 for a box, 0 degenerate.
+template <int Dim>
+double min_scaled_jacobian(const Mesh<Dim>& mesh, CellId c) {
+  const auto position = [&](int i) -> const Point<Dim>& { return mesh.points[mesh.cells[c][i]]; };
+  double lowest = 1.0;
+  for (int k = 0; k < Cell<Dim>::corners; ++k) {
+    double lengths2 = 1.0;
+    for (int d = 0; d < Dim; ++d) lengths2 *= (position(k ^ (1 << d)) - position(k)).squaredNorm();
+    const double j = corner_jacobian<Dim>(k, position) / std::sqrt(lengths2);
     if (!(j >= lowest)) lowest = j;
   }
   return lowest;

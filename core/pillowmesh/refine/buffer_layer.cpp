@@ -46,7 +46,7 @@ class Inserter {
 
   Inserter(Mesh<Dim>& mesh, PillowWorkspace<Dim>& work, BufferLayer<Dim>& layer)
       : mesh_(mesh), hull_(work.hull), plan_(work.plan), touched_(work.touched), layer_(layer), sides_(work.sides),
-        old_vertex_cell_(work.old_vertex_cell), movable_(work.movable) {}
+        old_vertex_cell_(work.old_vertex_cell), movable_(work.movable), floor_(work.quality_floor) {}
 
   /// What lies across each side of each new cell, decided while the old adjacency still stands.
   void find_side_neighbours() {
@@ -172,13 +172,13 @@ class Inserter {
 
   bool positive() const {
     for (const CellId c : layer_.changed)
-      if (!(min_corner_jacobian(mesh_, c) > 0)) return false;
+      if (!(good(c))) return false;
     for (CellId k = layer_.first_cell; k < mesh_.cell_count(); ++k)
-      if (!(min_corner_jacobian(mesh_, k) > 0)) return false;
+      if (!(good(k))) return false;
     for (const VertexId v : layer_.moved) {
       vertex_star(mesh_, v, plan_.star);
       for (const auto& [c, corner] : plan_.star)
-        if (!(min_corner_jacobian(mesh_, c) > 0)) return false;
+        if (!(good(c))) return false;
     }
     return true;
   }
@@ -267,6 +267,10 @@ class Inserter {
     return true;
   }
 
+  [[nodiscard]] bool good(CellId c) const {
+    return floor_ > 0 ? min_scaled_jacobian(mesh_, c) > floor_ : min_corner_jacobian(mesh_, c) > 0;
+  }
+
   void remember(VertexId v) {
     movable_.push_back(v);
     layer_.moved.push_back(v);
@@ -336,6 +340,7 @@ class Inserter {
   std::vector<Side>& sides_;
   std::vector<CellId>& old_vertex_cell_;
   std::vector<VertexId>& movable_;
+  double floor_;
 };
 
 }  // namespace

@@ -37,6 +37,8 @@ struct NewCellSide {
 /// Buffers of the operator, reused from call to call.
 template <int Dim>
 struct PillowWorkspace {
+  /// A layer is refused if it would leave a cell whose smallest scaled Jacobian is not above this. 0: only valid.
+  double quality_floor = 0.0;
   Hull<Dim> hull;
   CopyPlan<Dim> plan;
   std::vector<CellId> touched;
@@ -55,7 +57,7 @@ struct PillowWorkspace {
 ///
 /// Where the shrink set meets the domain's boundary the boundary is not hull, unless named in `boundary_hull`.
 /// \return illegal, with the mesh bit-for-bit unchanged, when there is no hull, a copy would leave the boundary, or no
-/// position keeps all corner Jacobians positive. Cost: linear in the shrink set (no global work).
+/// position keeps all corner Jacobians positive (above work.quality_floor). Cost: linear in the shrink set (no global work).
 /// Source: [Paper] section 2; Mitchell and Tautges, "Pillowing doublets" (1995); Schneiders (1996).
 template <int Dim>
 Status insert_buffer_layer(Mesh<Dim>& mesh, std::span<const CellId> shrink_set,

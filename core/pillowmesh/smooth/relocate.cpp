@@ -270,6 +270,14 @@ Derivatives<Dim> Relocator<Dim>::derivatives_at(VertexId v, const Candidate& at)
   return sum;
 }
 
+/// Over the cells of star_.
+template <int Dim>
+double Relocator<Dim>::lowest_scaled_jacobian() const {
+  double lowest = 1.0;
+  for (const auto& [c, corner] : star_) lowest = std::min(lowest, min_scaled_jacobian(mesh_, c));
+  return lowest;
+}
+
 template <int Dim>
 bool Relocator<Dim>::newton_step(VertexId v, const Derivatives<Dim>& d, Point<Dim>& step) const {
   const Tangent<Dim> t = tangent_at(mesh_, v);
@@ -309,6 +317,14 @@ double Relocator<Dim>::relocate(VertexId v) {
     if (!(energy <= d.value + 1e-4 * t * slope)) continue;
     const Point<Dim> move = next.position - now.position;
     mesh_.points[v] = next.position;
+    if (Dim == 3 && options_.quality_guard > 0) {
+      const double lowest = lowest_scaled_jacobian();
+      if (lowest < options_.quality_guard) {
+        mesh_.points[v] = now.position;
+        if (lowest < lowest_scaled_jacobian()) continue;
+        mesh_.points[v] = next.position;
+      }
+    }
     mesh_.anchor[v] = anchor;
     metric_[v] = next.metric;
     last_decrease_ = d.value - energy;

@@ -17,6 +17,9 @@ struct RelocateOptions {
   double target_length = 0.0;
   /// Newton steps are lengthened by this factor: the mesh settles in far fewer sweeps.
   double relaxation = 1.5;
+  /// A move that lowers the smallest scaled Jacobian around the vertex is refused where that is below this: the energy can
+  /// fall while cells degenerate in space. 0: no guard. Used in 3D; in 2D anisotropic cells may well be sheared.
+  double quality_guard = 0.1;
   /// The smoother stops when a sweep lowers the energy by less than this share.
   double converged = 3e-6;
 };
@@ -72,6 +75,7 @@ class Relocator {
   void scaled_frame(const Term& t, VertexId v, const Candidate& at, Frame<Dim>& e, std::array<double, Dim>& ratio) const;
   [[nodiscard]] double energy_at(VertexId v, const Candidate& at) const;
   [[nodiscard]] Derivatives<Dim> derivatives_at(VertexId v, const Candidate& at) const;
+  [[nodiscard]] double lowest_scaled_jacobian() const;
   bool newton_step(VertexId v, const Derivatives<Dim>& d, Point<Dim>& step) const;
 
   Mesh<Dim>& mesh_;
