@@ -26,12 +26,15 @@ export function catch2(name, folder) {
   return result(number('tests') - failures - number('skipped') - number('disabled'), failures, ok);
 }
 
+/** No colour codes in a log file. */
+const colours = process.stdout.isTTY ? {} : { NO_COLOR: '1' };
+
 /** A project of vitest.config.ts. */
 export function vitest(name, folder) {
   const report = join(folder, `${name}.json`);
   const program = join(root, 'node_modules', 'vitest', 'vitest.mjs');
   const ok = run(process.execPath, [program, 'run', '--project', name, '--reporter=default', '--reporter=json',
-    `--outputFile=${report}`], { env: { PILLOWMESH_CHROMIUM: chromium(), CI: '1' } });
+    `--outputFile=${report}`], { env: { PILLOWMESH_CHROMIUM: chromium(), CI: '1', ...colours } });
   if (!existsSync(report)) return result(0, 0, ok);
   const { numPassedTests, numFailedTests } = JSON.parse(readFileSync(report, 'utf8'));
   return result(numPassedTests, numFailedTests, ok);
