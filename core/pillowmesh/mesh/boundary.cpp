@@ -65,6 +65,21 @@ void drop_unused_vertices(MeshInput<Dim>& input) {
   for (auto& ridge : input.ridges) ridge = {renumbered[ridge[0]], renumbered[ridge[1]]};
 }
 
+/// Where two cells share two facets with a common edge, one of them is inverted wherever the vertices are: says so.
+template <int Dim>
+void explain_shape(Mesh<Dim>& mesh, Defect& defect) {
+  if (defect.kind != Defect::Kind::inverted_corner || !connect_cells(mesh).ok()) return;
+  const CellId c = defect.cell;
+  for (int f = 0; f < Cell<Dim>::facets; ++f)
+    for (int g = 0; g < f; ++g) {
+      const CellId n = mesh.neighbour(c, f);
+      if (n == kNone || n != mesh.neighbour(c, g) || g == Cell<Dim>::opposite_facet(f)) continue;
+      const std::string share = Dim == 2 ? "two edges with quad " : "two facets with hex ";
+      defect.message += ", nor can it be: the cell shares " + share + std::to_string(n);
+      return;
+    }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -81,20 +96,20 @@ Expected<Mesh<Dim>> make_mesh(MeshInput<Dim> input, const BoundaryOptions& optio
   for (Index& r : mesh.region)
     if (r < 0 || r >= static_cast<Index>(mesh.region_groups.size())) r = 0;
 
-  const auto located = [&](const Defect& d, int more) {
-    std::string text = d.message;
-    if (d.cell != kNone && static_cast<std::size_t>(d.cell) < input.cell_lines.size())
-      text += " (line " + std::to_string(input.cell_lines[d.cell]) + ")";
-    if (more > 0) text += " (and " + std::to_string(more) + (more == 1 ? " more defect)" : " more defects)");
-    return Status::bad_input(text);
+  constexpr int most = 1000;
+  const auto refused = [&](const std::vector<Defect>& defects) {
+    return Status::bad_input(describe<Dim>(defects, most, input.cell_lines));
   };
-  const auto shapes = find_cell_defects(mesh, 1000);
-  if (!shapes.empty()) return located(shapes[0], static_cast<int>(shapes.size()) - 1);
+  auto shapes = find_cell_defects(mesh, most);
+  if (!shapes.empty()) {
+    explain_shape(mesh, shapes[0]);
+    return refused(shapes);
+  }
   if (Status s = connect_cells(mesh); !s.ok()) return s;
-  const auto hanging = find_hanging_nodes(mesh, 1000);  // first: they are the cause of what else looks wrong
-  if (!hanging.empty()) return located(hanging[0], static_cast<int>(hanging.size()) - 1);
-  const auto adjacency = find_adjacency_defects(mesh, 1000);
-  if (!adjacency.empty()) return located(adjacency[0], static_cast<int>(adjacency.size()) - 1);
+  const auto hanging = find_hanging_nodes(mesh, most);  // first: they are the cause of what else looks wrong
+  if (!hanging.empty()) return refused(hanging);
+  const auto adjacency = find_adjacency_defects(mesh, most);
+  if (!adjacency.empty()) return refused(adjacency);
   classify_boundary(mesh, input, options);
   return mesh;
 }

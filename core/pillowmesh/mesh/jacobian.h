@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include <array>
+
 #include "pillowmesh/mesh/mesh.h"
 
 namespace pillowmesh {
@@ -52,6 +54,24 @@ double min_scaled_jacobian(const Mesh<Dim>& mesh, CellId c) {
     if (!(j >= lowest)) lowest = j;
   }
   return lowest;
+}
+
+/// Jacobian determinant of the trilinear map of a hexahedron at local coordinates `at`, each 0 to 1.
+template <class Position>
+double jacobian_at(const std::array<double, 3>& at, Position&& position) {
+  using C = Cell<3>;
+  std::array<Point<3>, 3> along;
+  for (int axis = 0; axis < 3; ++axis) {
+    along[axis] = Point<3>::Zero();
+    for (int k = 0; k < C::edges_per_axis; ++k) {
+      const int from = C::insert_bit(k, axis);
+      double weight = 1.0;
+      for (int d = 0; d < 3; ++d)
+        if (d != axis) weight *= (from >> d) & 1 ? at[d] : 1 - at[d];
+      along[axis] += weight * (position(from | 1 << axis) - position(from));
+    }
+  }
+  return triple(along[0], along[1], along[2]);
 }
 
 }  // namespace pillowmesh

@@ -2,75 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
-#include "pillowmesh/mesh/boundary.h"
+#include "pillowmesh/mesh/defect_text.h"
 #include "pillowmesh/mesh/jacobian.h"
 #include "pillowmesh/mesh/topology.h"
 
 namespace pillowmesh {
-namespace {
-
-template <int Dim>
-std::string cell_word() {
-  return Dim == 2 ? "quad " : "hex ";
-}
-
-template <int Dim>
-std::string place(const Point<Dim>& p) {
-  std::string text = "(";
-  for (int d = 0; d < Dim; ++d) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%.6g", p[d]);
-    text += (d ? ", " : "") + std::string(number);
-  }
-  return text + ")";
-}
-
-template <int Dim>
-Point<Dim> centroid(const Mesh<Dim>& mesh, CellId c) {
-  Point<Dim> sum = Point<Dim>::Zero();
-  for (const VertexId v : mesh.cells[c]) sum += mesh.points[v];
-  return sum / Cell<Dim>::corners;
-}
-
-/// Boundary half-facets of a connected mesh.
-template <int Dim>
-std::vector<HalfFacetId> boundary_facets(const Mesh<Dim>& mesh) {
-  std::vector<HalfFacetId> out;
-  for (CellId c = 0; c < mesh.cell_count(); ++c)
-    if (mesh.alive(c))
-      for (int f = 0; f < Cell<Dim>::facets; ++f)
-        if (mesh.on_boundary(c, f)) out.push_back(mesh.half_facet(c, f));
-  return out;
-}
-
-/// True if p lies in the interior of facet v, or of one of its edges, within `slack` times its size.
-bool inside_facet(const std::vector<Point<2>>& points, const FacetCorners<2>& v, const Point<2>& p) {
-  constexpr double slack = 1e-6;
-  const Point<2> e = points[v[1]] - points[v[0]], q = p - points[v[0]];
-  const double length2 = e.squaredNorm(), t = e.dot(q) / length2;
-  return t > slack && t < 1 - slack && std::abs(cross(e, q)) < slack * length2;
-}
-bool inside_facet(const std::vector<Point<3>>& points, const FacetCorners<3>& v, const Point<3>& p) {
-  // Two triangles about the diagonal 0-3; a quad that is not flat is met nearly, which suffices for hanging nodes.
-  constexpr double slack = 1e-6;
-  for (const int middle : {1, 2}) {
-    const Point<3> a = points[v[middle]] - points[v[0]], b = points[v[3]] - points[v[0]], q = p - points[v[0]];
-    const double aa = a.dot(a), ab = a.dot(b), bb = b.dot(b), qa = q.dot(a), qb = q.dot(b);
-    const double det = aa * bb - ab * ab;
-    if (!(det > 0)) continue;
-    const double s = (bb * qa - ab * qb) / det, t = (aa * qb - ab * qa) / det;
-    if (s < -slack || t < -slack || s + t > 1 + slack) continue;
-    if ((q - s * a - t * b).squaredNorm() > slack * slack * (aa + bb)) continue;
-    bool at_corner = false;
-    for (const VertexId w : v) at_corner = at_corner || (points[w] - p).squaredNorm() < slack * slack * (aa + bb);
-    if (!at_corner) return true;
-  }
-  return false;
-}
-
-}  // namespace
+using detail::boundary_facets;
+using detail::cell_name;
+using detail::centroid;
+using detail::place;
 
 template <int Dim>
 std::vector<Defect> find_cell_defects(const Mesh<Dim>& mesh, int most) {
@@ -81,18 +22,18 @@ std::vector<Defect> find_cell_defects(const Mesh<Dim>& mesh, int most) {
   };
   for (CellId c = 0; c < mesh.cell_count(); ++c) {
     if (!mesh.alive(c)) continue;
-    const std::string name = cell_word<Dim>() + std::to_string(c);
+    const auto name = [&] { return cell_name<Dim>(c); };
     bool in_range = true, twice = false;
     for (int i = 0; i < C::corners; ++i) {
       in_range = in_range && mesh.cells[c][i] >= 0 && mesh.cells[c][i] < mesh.vertex_count();
       for (int j = 0; j < i; ++j) twice = twice || mesh.cells[c][i] == mesh.cells[c][j];
     }
     if (!in_range) {
-      report(Defect::Kind::index_out_of_range, c, kNone, name + " names a vertex that does not exist");
+      report(Defect::Kind::index_out_of_range, c, kNone, name() + " names a vertex that does not exist");
       continue;
     }
     if (twice) {
-      report(Defect::Kind::degenerate_cell, c, kNone, name + " is degenerate: it names a vertex twice");
+      report(Defect::Kind::degenerate_cell, c, kNone, name() + " is degenerate: it names a vertex twice");
       continue;
     }
     const auto position = [&](int i) -> const Point<Dim>& { return mesh.points[mesh.cells[c][i]]; };
@@ -105,10 +46,10 @@ std::vector<Defect> find_cell_defects(const Mesh<Dim>& mesh, int most) {
     if (inverted == 0) continue;
     const VertexId v = mesh.cells[c][worst];
     report(Defect::Kind::inverted_corner, c, v,
-           inverted == C::corners
-               ? name + " at " + place<Dim>(centroid(mesh, c)) + " is inside out: all its corner Jacobians are negative or zero"
-               : name + " is inverted or degenerate: its corner Jacobian at vertex " + std::to_string(v) + " " +
-                     place<Dim>(mesh.points[v]) + " is not positive");
+           inverted == C::corners ? name() + " at " + place<Dim>(centroid(mesh, c)) +
+                                        " is inside out: all its corner Jacobians are negative or zero"
+                                  : name() + " is inverted or degenerate: its corner Jacobian at vertex " +
+                                        std::to_string(v) + " " + place<Dim>(mesh.points[v]) + " is not positive");
   }
   return out;
 }
@@ -127,13 +68,13 @@ std::vector<Defect> find_adjacency_defects(const Mesh<Dim>& mesh, int most) {
   std::vector<Index> valence(mesh.points.size(), 0);
   for (CellId c = 0; c < mesh.cell_count(); ++c) {
     if (!mesh.alive(c)) continue;
-    const std::string name = cell_word<Dim>() + std::to_string(c);
     for (const VertexId v : mesh.cells[c]) ++valence[v];
     for (int f = 0; f < C::facets; ++f) {
       const HalfFacetId twin = mesh.twins[c][f];
       if (twin < 0) continue;
       const CellId n = mesh.cell_of(twin);
-      bool matches = n < mesh.cell_count() && mesh.alive(n) && mesh.twins[n][mesh.facet_of(twin)] == mesh.half_facet(c, f);
+      bool matches =
+          n < mesh.cell_count() && mesh.alive(n) && mesh.twins[n][mesh.facet_of(twin)] == mesh.half_facet(c, f);
       if (matches) {
         auto a = mesh.facet_vertices(c, f), b = mesh.facet_vertices(n, mesh.facet_of(twin));
         std::sort(a.begin(), a.end());
@@ -141,150 +82,105 @@ std::vector<Defect> find_adjacency_defects(const Mesh<Dim>& mesh, int most) {
         matches = a == b;
       }
       if (!matches) {
-        report(Defect::Kind::broken_adjacency, c, kNone, "the neighbour of " + name + " across facet " + std::to_string(f) + " does not match");
+        report(Defect::Kind::broken_adjacency, c, kNone,
+               "the neighbour of " + cell_name<Dim>(c) + " across facet " + std::to_string(f) + " does not match");
         continue;
       }
       for (int g = 0; g < f; ++g)
-        if (mesh.neighbour(c, g) == n)
+        if (mesh.neighbour(c, g) == n && c < n)
           report(Defect::Kind::shared_facets, c, kNone,
-                 name + " and " + cell_word<Dim>() + std::to_string(n) + " share two " + (Dim == 2 ? "edges" : "facets"));
+                 cell_name<Dim>(c) + " and " + cell_name<Dim>(n) + " share two " + (Dim == 2 ? "edges" : "facets"));
     }
   }
   if (!out.empty()) return out;
+  if constexpr (Dim == 3) {
+    struct Side {
+      std::array<VertexId, 2> ends;
+      CellId cell;
+    };
+    std::vector<Side> sides;
+    for (const HalfFacetId h : boundary_facets(mesh)) {
+      const auto v = mesh.facet_vertices(mesh.cell_of(h), mesh.facet_of(h));
+      constexpr int cycle[5] = {0, 1, 3, 2, 0};
+      for (int i = 0; i < 4; ++i) {
+        const auto [a, b] = std::minmax(v[cycle[i]], v[cycle[i + 1]]);
+        sides.push_back({{a, b}, mesh.cell_of(h)});
+      }
+    }
+    std::sort(sides.begin(), sides.end(),
+              [](const Side& a, const Side& b) { return a.ends != b.ends ? a.ends < b.ends : a.cell < b.cell; });
+    for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
+      std::string cells;
+      while (j < sides.size() && sides[j].ends == sides[i].ends) ++j;
+      if (j - i == 2) continue;
+      for (std::size_t k = i; k < j; ++k)
+        if (k == i || sides[k].cell != sides[k - 1].cell) cells += (k == i ? "" : ", ") + cell_name<Dim>(sides[k].cell);
+      const auto [a, b] = sides[i].ends;
+      report(Defect::Kind::non_manifold_edge, sides[i].cell, a,
+             std::to_string(j - i) + " boundary facets, of " + cells + ", meet at the edge of vertices " +
+                 std::to_string(a) + " and " + std::to_string(b) + " at " + place<Dim>(mesh.points[a]) +
+                 ", where a surface has two");
+    }
+  }
   std::vector<CellCorner> star;
+  std::vector<VertexId> touching;  // ascending
+  std::vector<CellId> touching_cell;
   for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
     if (valence[v] == 0) {
       if (mesh.vertex_cell[v] != kNone)
-        report(Defect::Kind::broken_adjacency, kNone, v, "vertex " + std::to_string(v) + " belongs to no cell but names one");
+        report(Defect::Kind::broken_adjacency, kNone, v,
+               "vertex " + std::to_string(v) + " belongs to no cell but names one");
       continue;
     }
     const CellId c = mesh.vertex_cell[v];
     if (c < 0 || c >= mesh.cell_count() || !mesh.alive(c) || corner_of(mesh, c, v) < 0) {
-      report(Defect::Kind::broken_adjacency, c, v, "vertex " + std::to_string(v) + " names a cell that it is not a corner of");
+      report(Defect::Kind::broken_adjacency, c, v,
+             "vertex " + std::to_string(v) + " names a cell that it is not a corner of");
       continue;
     }
     vertex_star(mesh, v, star);
-    if (static_cast<Index>(star.size()) != valence[v])
-      report(Defect::Kind::non_manifold_vertex, c, v,
-             "the cells at vertex " + std::to_string(v) + " " + place<Dim>(mesh.points[v]) +
-                 " are not all connected through facets: the mesh touches itself there, or its nodes are not merged");
+    if (static_cast<Index>(star.size()) == valence[v]) continue;
+    touching.push_back(v);
+    touching_cell.push_back(c);
   }
+  if (touching.empty()) return out;
+  // A cell on the other side of each of them: the first that the walk from vertex_cell does not reach.
+  std::vector<CellId> other(touching.size(), kNone);
+  for (CellId c = 0; c < mesh.cell_count(); ++c) {
+    if (!mesh.alive(c)) continue;
+    for (const VertexId v : mesh.cells[c]) {
+      const auto at = std::lower_bound(touching.begin(), touching.end(), v) - touching.begin();
+      if (at == static_cast<std::ptrdiff_t>(touching.size()) || touching[at] != v || other[at] != kNone) continue;
+      vertex_star(mesh, v, star);
+      if (std::none_of(star.begin(), star.end(), [&](const CellCorner& s) { return s.cell == c; })) other[at] = c;
+    }
+  }
+  for (std::size_t i = 0; i < touching.size(); ++i)
+    report(Defect::Kind::non_manifold_vertex, touching_cell[i], touching[i],
+           "the cells at vertex " + std::to_string(touching[i]) + " " + place<Dim>(mesh.points[touching[i]]) +
+               " are not all connected through facets (" + cell_name<Dim>(touching_cell[i]) + " and " +
+               cell_name<Dim>(other[i]) + " are not): the mesh touches itself there, or its nodes are not merged");
+  return out;
+}
+
+template <int Dim>
+std::vector<Defect> find_inside_defects(const Mesh<Dim>& mesh, int most) {
+  std::vector<Defect> out;
   if constexpr (Dim == 3) {
-    std::vector<std::array<VertexId, 2>> edges;
-    for (const HalfFacetId h : boundary_facets(mesh)) {
-      const auto v = mesh.facet_vertices(mesh.cell_of(h), mesh.facet_of(h));
-      constexpr int cycle[5] = {0, 1, 3, 2, 0};
-      for (int i = 0; i < 4; ++i)
-        edges.push_back({std::min(v[cycle[i]], v[cycle[i + 1]]), std::max(v[cycle[i]], v[cycle[i + 1]])});
-    }
-    std::sort(edges.begin(), edges.end());
-    for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
-      while (j < edges.size() && edges[j] == edges[i]) ++j;
-      if (j - i != 2)
-        report(Defect::Kind::non_manifold_edge, mesh.vertex_cell[edges[i][0]], edges[i][0],
-               std::to_string(j - i) + " boundary facets meet at the edge of vertices " + std::to_string(edges[i][0]) +
-                   " and " + std::to_string(edges[i][1]) + ", where a surface has two");
-    }
-  }
-  return out;
-}
-
-template <int Dim>
-std::vector<Defect> find_hanging_nodes(const Mesh<Dim>& mesh, int most) {
-  std::vector<Defect> out;
-  const auto facets = boundary_facets(mesh);
-  if (facets.empty()) return out;
-  std::vector<VertexId> vertices;
-  Point<Dim> low = Point<Dim>::Constant(INFINITY), high = -low;
-  for (const HalfFacetId h : facets)
-    for (const VertexId v : mesh.facet_vertices(mesh.cell_of(h), mesh.facet_of(h))) {
-      vertices.push_back(v);
-      low = low.cwiseMin(mesh.points[v]);
-      high = high.cwiseMax(mesh.points[v]);
-    }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-
-  // Boundary vertices in the boxes of a uniform grid with about as many boxes.
-  const double per_axis = std::floor(std::pow(static_cast<double>(vertices.size()), 1.0 / Dim)) + 1.0;
-  const auto box = [&](double x, int d) {
-    const double extent = high[d] - low[d];
-    const double i = extent > 0 ? std::floor((x - low[d]) / extent * per_axis) : 0.0;
-    return static_cast<Index>(std::min(std::max(i, 0.0), per_axis - 1));
-  };
-  const Index n = static_cast<Index>(per_axis);
-  const auto box_of = [&](const std::array<Index, Dim>& i) {
-    Index at = 0;
-    for (int d = 0; d < Dim; ++d) at = at * n + i[d];
-    return at;
-  };
-  std::vector<std::array<Index, 2>> boxed;  // box, vertex
-  for (const VertexId v : vertices) {
-    std::array<Index, Dim> i;
-    for (int d = 0; d < Dim; ++d) i[d] = box(mesh.points[v][d], d);
-    boxed.push_back({box_of(i), v});
-  }
-  std::sort(boxed.begin(), boxed.end());
-
-  for (const HalfFacetId h : facets) {
-    const CellId c = mesh.cell_of(h);
-    const auto facet = mesh.facet_vertices(c, mesh.facet_of(h));
-    Point<Dim> a = mesh.points[facet[0]], b = a;
-    for (const VertexId v : facet) {
-      a = a.cwiseMin(mesh.points[v]);
-      b = b.cwiseMax(mesh.points[v]);
-    }
-    std::array<Index, Dim> first, last, i;
-    for (int d = 0; d < Dim; ++d) {
-      const double margin = 1e-6 * (high[d] - low[d]);
-      first[d] = box(a[d] - margin, d);
-      last[d] = box(b[d] + margin, d);
-    }
-    i = first;
-    while (true) {
-      const Index at = box_of(i);
-      for (auto it = std::lower_bound(boxed.begin(), boxed.end(), std::array<Index, 2>{at, 0});
-           it != boxed.end() && (*it)[0] == at; ++it) {
-        const VertexId v = (*it)[1];
-        if (std::find(facet.begin(), facet.end(), v) != facet.end()) continue;
-        if (!inside_facet(mesh.points, facet, mesh.points[v])) continue;
-        if (static_cast<int>(out.size()) < most)
-          out.push_back({Defect::Kind::hanging_node, c, v,
-                         "vertex " + std::to_string(v) + " " + place<Dim>(mesh.points[v]) + " hangs on a facet of " +
-                             cell_word<Dim>() + std::to_string(c) + ": the mesh is not conforming there"});
+    for (CellId c = 0; c < mesh.cell_count() && static_cast<int>(out.size()) < most; ++c) {
+      if (!mesh.alive(c) || !(min_corner_jacobian(mesh, c) > 0)) continue;
+      const auto position = [&](int i) -> const Point<3>& { return mesh.points[mesh.cells[c][i]]; };
+      for (int i = 0; i < 27; ++i) {
+        const std::array<double, 3> at{i % 3 * 0.5, i / 3 % 3 * 0.5, i / 9 * 0.5};
+        if (jacobian_at(at, position) > 0) continue;
+        out.push_back({Defect::Kind::inverted_inside, c, kNone,
+                       cell_name<3>(c) +
+                           " is inverted inside: its corner Jacobians are positive, but not the Jacobian "
+                           "at local coordinates " +
+                           place<3>(Point<3>(at[0], at[1], at[2]))});
+        break;
       }
-      int d = Dim - 1;
-      while (d >= 0 && ++i[d] > last[d]) i[d] = first[d], --d;
-      if (d < 0) break;
     }
-  }
-  return out;
-}
-
-template <int Dim>
-std::vector<Defect> find_support_defects(const Mesh<Dim>& mesh, int most) {
-  std::vector<Defect> out;
-  const auto report = [&](VertexId v, const char* what) {
-    if (static_cast<int>(out.size()) < most)
-      out.push_back({Defect::Kind::broken_support, mesh.vertex_cell[v], v,
-                     "vertex " + std::to_string(v) + " " + place<Dim>(mesh.points[v]) + " " + what});
-  };
-  // The patches at each boundary vertex: none, one, or several.
-  constexpr Index several = -2;
-  std::vector<Index> patches(mesh.points.size(), kNone);
-  for (const HalfFacetId h : boundary_facets(mesh)) {
-    const CellId c = mesh.cell_of(h);
-    const PatchId p = mesh.patch_of(c, mesh.facet_of(h));
-    for (const VertexId v : mesh.facet_vertices(c, mesh.facet_of(h)))
-      patches[v] = patches[v] == kNone || patches[v] == p ? p : several;
-  }
-  for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
-    if (mesh.vertex_cell[v] == kNone) continue;
-    const VertexSupport s = mesh.support[v];
-    if (patches[v] == kNone && s.dim != Dim) report(v, "is inside but classified as a boundary vertex");
-    if (patches[v] != kNone && s.dim == Dim) report(v, "is on the boundary but classified as inside");
-    if (s.dim == Dim - 1 && patches[v] != s.entity) report(v, "is not on the one patch that it is classified on");
-    if (Dim == 3 && s.dim == 1 && patches[v] != several) report(v, "is on a feature curve but not between patches");
   }
   return out;
 }
@@ -308,21 +204,41 @@ std::vector<Defect> find_defects(const Mesh<Dim>& mesh, int most) {
 }
 
 template <int Dim>
-Status validate(const Mesh<Dim>& mesh) {
-  const auto defects = find_defects(mesh, 1000);
-  if (defects.empty()) return {};
+std::string describe(const std::vector<Defect>& defects, int most, std::span<const Index> cell_lines) {
+  constexpr std::size_t named = 8;
+  const CellId first = defects[0].cell;
   std::string text = defects[0].message;
-  if (defects.size() > 1)
-    text += " (and " + std::to_string(defects.size() - 1) + (defects.size() == 2 ? " more defect)" : " more defects)");
-  return Status::bad_input(text);
+  if (first != kNone && static_cast<std::size_t>(first) < cell_lines.size())
+    text += " (line " + std::to_string(cell_lines[first]) + ")";
+  if (defects.size() == 1) return text;
+  std::vector<CellId> others;
+  for (const Defect& d : defects)
+    if (d.cell != kNone && d.cell != first) others.push_back(d.cell);
+  std::sort(others.begin(), others.end());
+  others.erase(std::unique(others.begin(), others.end()), others.end());
+  text += static_cast<int>(defects.size()) == most ? "; at least " : "; ";
+  text += std::to_string(defects.size() - 1) + (defects.size() == 2 ? " more defect" : " more defects");
+  const std::string cells = Dim == 2 ? "quad" : "hex";
+  for (std::size_t i = 0; i < std::min(others.size(), named); ++i)
+    text += (i > 0 ? ", " : ", in " + cells + (others.size() == 1 ? " " : Dim == 2 ? "s " : "es ")) +
+            std::to_string(others[i]);
+  if (others.size() > named) text += ", ...";
+  return text;
 }
 
-#define PILLOWMESH_INSTANTIATE(Dim)                                               \
-  template std::vector<Defect> find_cell_defects(const Mesh<Dim>&, int);          \
-  template std::vector<Defect> find_adjacency_defects(const Mesh<Dim>&, int);     \
-  template std::vector<Defect> find_hanging_nodes(const Mesh<Dim>&, int);         \
-  template std::vector<Defect> find_support_defects(const Mesh<Dim>&, int);       \
-  template std::vector<Defect> find_defects(const Mesh<Dim>&, int);               \
+template <int Dim>
+Status validate(const Mesh<Dim>& mesh) {
+  constexpr int most = 1000;
+  const auto defects = find_defects(mesh, most);
+  return defects.empty() ? Status{} : Status::bad_input(describe<Dim>(defects, most));
+}
+
+#define PILLOWMESH_INSTANTIATE(Dim)                                                            \
+  template std::vector<Defect> find_cell_defects(const Mesh<Dim>&, int);                       \
+  template std::vector<Defect> find_adjacency_defects(const Mesh<Dim>&, int);                  \
+  template std::vector<Defect> find_defects(const Mesh<Dim>&, int);                            \
+  template std::vector<Defect> find_inside_defects(const Mesh<Dim>&, int);                     \
+  template std::string describe<Dim>(const std::vector<Defect>&, int, std::span<const Index>); \
   template Status validate(const Mesh<Dim>&);
 PILLOWMESH_INSTANTIATE(2)
 PILLOWMESH_INSTANTIATE(3)
