@@ -63,6 +63,7 @@ struct Adapter<Dim>::State {
   int sweeps = 0;
   bool smoothed = false;  ///< the last smoothing is done; only a look at the lengths is left
   int rounds = 0;         ///< of refinement and last smoothing
+  double share = 0.0;     ///< of the work, as last reported
 
   Recorder<Dim> recorder;
   std::map<std::string, double> seconds;
@@ -276,11 +277,12 @@ struct Adapter<Dim>::State {
     begin_smoothing();
   }
 
-  void report_progress(std::string_view activity) const {
+  void report_progress(std::string_view activity) {
     if (!context.progress) return;
-    const double share = stage == Stage::done         ? 1.0
+    const double estimate = stage == Stage::done         ? 1.0
                          : stage == Stage::smooth_end ? 0.7 + 0.3 * sweeps / std::max(1, options.max_sweeps)
                                                       : 0.7 * (1.0 - 1.0 / (1.0 + 0.5 * iteration));
+    share = std::max(share, estimate);  // work that turns out to be left must not turn it back
     context.progress(share, activity);
   }
 };

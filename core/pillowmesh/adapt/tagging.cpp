@@ -31,6 +31,7 @@ std::vector<CellId> Tagging<Dim>::tag_long_edges(const Mesh<Dim>& mesh, const Me
                                                  EdgeTags<Dim>& tags) {
   using C = Cell<Dim>;
   tags.mask.resize(mesh.cells.size(), 0);
+  measured_.assign(mesh.cells.size(), 0);
   std::sort(list_.begin(), list_.end());
   constexpr std::size_t batch = 2048;
   std::vector<std::array<VertexId, 2>> edges;
@@ -52,9 +53,10 @@ std::vector<CellId> Tagging<Dim>::tag_long_edges(const Mesh<Dim>& mesh, const Me
   for (const CellId c : list_) {
     if (!mesh.alive(c)) continue;
     for (int e = 0; e < C::edges; ++e) {
-      bool first = true;  // of the cells at the edge that changed
-      for_each_cell_at_edge(mesh, {c, e}, [&](CellId n, int) { first = first && (n >= c || !changed_[n]); });
-      if (!first) continue;
+      if ((measured_[c] >> e) & 1) continue;
+      for_each_cell_at_edge(mesh, {c, e}, [&](CellId n, int f) {
+        measured_[n] |= static_cast<typename EdgeTags<Dim>::Mask>(1u << f);
+      });
       places.push_back({c, e});
       edges.push_back({mesh.cells[c][C::edge_from(e)], mesh.cells[c][C::edge_to(e)]});
     }

@@ -31,6 +31,7 @@ class Tagging {
   double panel_;
   std::vector<std::uint8_t> changed_;  ///< per cell
   std::vector<CellId> list_;
+  std::vector<typename EdgeTags<Dim>::Mask> measured_;  ///< edges that this call has seen
 };
 
 }  // namespace pillowmesh

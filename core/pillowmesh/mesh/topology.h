@@ -46,6 +46,19 @@ struct CellEdge {
 template <int Dim>
 int edge_between(const Mesh<Dim>& mesh, CellId c, VertexId a, VertexId b);
 
+/// The local edge of cell c that joins vertices a and b, both on its facet f.
+template <int Dim>
+inline int edge_on_facet(const Mesh<Dim>& mesh, CellId c, int f, VertexId a, VertexId b) {
+  int ka = 0, kb = 0;
+  for (int i = 0; i < Cell<Dim>::facet_corners; ++i) {
+    const int k = Cell<Dim>::facet_corner(f, i);
+    if (mesh.cells[c][k] == a) ka = k;
+    if (mesh.cells[c][k] == b) kb = k;
+  }
+  const int bit = ka ^ kb;
+  return Cell<Dim>::edge_at(ka, bit == 1 ? 0 : (bit == 2 ? 1 : 2));
+}
+
 /// Calls visit(cell, local edge) for every cell at the edge, `start` first: in 2D one or two cells, in 3D the ring.
 template <int Dim, class Visit>
 void for_each_cell_at_edge(const Mesh<Dim>& mesh, CellEdge start, Visit&& visit) {
@@ -67,7 +80,7 @@ void for_each_cell_at_edge(const Mesh<Dim>& mesh, CellEdge start, Visit&& visit)
         c = mesh.cell_of(twin);
         if (c == start.cell) return;
         const int entered = mesh.facet_of(twin);
-        const int e = edge_between(mesh, c, a, b);
+        const int e = edge_on_facet(mesh, c, entered, a, b);
         visit(c, e);
         const int k = Cell<Dim>::edge_from(e), along = Cell<Dim>::edge_axis(e);
         const int other = 3 - along - Cell<Dim>::facet_axis(entered);

@@ -51,7 +51,7 @@ void edge_ring(const Mesh<3>& mesh, CellEdge edge, EdgeRing& ring) {
       out = next_facet(at.edge, C::facet_axis(out));
       break;
     }
-    at = {mesh.cell_of(twin), edge_between(mesh, mesh.cell_of(twin), a, b)};
+    at = {mesh.cell_of(twin), edge_on_facet(mesh, mesh.cell_of(twin), mesh.facet_of(twin), a, b)};
     ring.closed = at.cell == edge.cell;
     out = ring.closed ? leave : next_facet(at.edge, C::facet_axis(mesh.facet_of(twin)));
     if (ring.closed) break;
@@ -60,7 +60,7 @@ void edge_ring(const Mesh<3>& mesh, CellEdge edge, EdgeRing& ring) {
     ring.cells.push_back(at);
     const HalfFacetId twin = mesh.twins[at.cell][out];
     if (twin < 0 || mesh.cell_of(twin) == ring.cells[0].cell) return;
-    at = {mesh.cell_of(twin), edge_between(mesh, mesh.cell_of(twin), a, b)};
+    at = {mesh.cell_of(twin), edge_on_facet(mesh, mesh.cell_of(twin), mesh.facet_of(twin), a, b)};
     out = next_facet(at.edge, C::facet_axis(mesh.facet_of(twin)));
   }
 }
@@ -73,20 +73,8 @@ int hull_facets_in(const Mesh<3>&, const Hull<3>& hull, const EdgeRing& ring) {
   return count;
 }
 
-void find_joined_inside(const Mesh<3>& mesh, const Hull<3>& hull, std::vector<std::array<VertexId, 2>>& edges) {
-  EdgeRing ring;
-  for (const auto& h : hull.facets) {
-    for (int e = 0; e < C::edges; ++e) {
-      if (C::edge_axis(e) == C::facet_axis(h.facet) || !C::corner_on_facet(C::edge_from(e), h.facet)) continue;
-      edge_ring(mesh, {h.inside, e}, ring);
-      if (!ring.closed || hull_facets_in(mesh, hull, ring) < 4) continue;
-      const VertexId a = mesh.cells[h.inside][C::edge_from(e)], b = mesh.cells[h.inside][C::edge_to(e)];
-      if (inside_connected_at(mesh, hull, a, ring) && inside_connected_at(mesh, hull, b, ring))
-        edges.push_back({std::min(a, b), std::max(a, b)});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+bool joins_inside(const Mesh<3>& mesh, const Hull<3>& hull, VertexId a, VertexId b, const EdgeRing& ring) {
+  return inside_connected_at(mesh, hull, a, ring) && inside_connected_at(mesh, hull, b, ring);
 }
 
 }  // namespace pillowmesh

@@ -20,17 +20,34 @@ void edge_ring(const Mesh<3>& mesh, CellEdge edge, EdgeRing& ring);
 /// Number of hull facets at the edge of the ring.
 int hull_facets_in(const Mesh<3>& mesh, const Hull<3>& hull, const EdgeRing& ring);
 
-/// The pinched edges across which the shrink set, not the outside, is joined: those where its runs are one component at
-/// both ends already. Sorted pairs, lower vertex first. Cost: linear in the hull.
-void find_joined_inside(const Mesh<3>& mesh, const Hull<3>& hull, std::vector<std::array<VertexId, 2>>& edges);
+/// True if the shrink set, not the outside, is to be joined across a pinched edge (a, b): where its runs are one
+/// component at both ends already.
+bool joins_inside(const Mesh<3>& mesh, const Hull<3>& hull, VertexId a, VertexId b, const EdgeRing& ring);
 
-/// Calls visit(join_inside, cells of the ring) for each pinched interior edge at v.
+/// Calls visit(w, join inside, ring) for each pinched interior edge (v, w). Cost: none to speak of at the usual vertices,
+/// where the hull facets are a single fan.
 template <class Visit>
 void pinched_edges_at(const Mesh<3>& mesh, const Hull<3>& hull, VertexId v, const std::vector<CellCorner>& star,
-                      const std::vector<std::array<VertexId, 2>>& joined_inside, Visit&& visit) {
+                      Visit&& visit) {
+  // Each unpinched hull edge inside the domain has two hull facets: then there are as many edges at v as facets.
+  std::array<VertexId, 32> ends;
+  std::size_t edges = 0;
+  int facets = 0;
+  for (const auto& [c, corner] : star) {
+    if (!hull.in_set[c] || hull.hull_sides[c] == 0) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!hull.is_hull(c, Cell<3>::facet(axis, (corner >> axis) & 1))) continue;
+      ++facets;
+      for (int other = 0; other < 3; ++other) {
+        const VertexId w = mesh.cells[c][corner ^ (1 << other)];
+        if (other == axis || std::find(ends.begin(), ends.begin() + edges, w) != ends.begin() + edges) continue;
+        if (edges < ends.size()) ends[edges++] = w;
+      }
+    }
+  }
+  if (mesh.support[v].dim == 3 && static_cast<std::size_t>(facets) <= edges && edges < ends.size()) return;
   EdgeRing ring;
   std::vector<VertexId> seen;
-  std::vector<CellCorner> cells;
   for (const auto& [c, corner] : star) {
     if (!hull.in_set[c] || hull.hull_sides[c] == 0) continue;
     for (int axis = 0; axis < 3; ++axis) {
@@ -38,11 +55,7 @@ void pinched_edges_at(const Mesh<3>& mesh, const Hull<3>& hull, VertexId v, cons
       if (hull.slot[w] == kNone || std::find(seen.begin(), seen.end(), w) != seen.end()) continue;
       seen.push_back(w);
       edge_ring(mesh, {c, Cell<3>::edge_at(corner, axis)}, ring);
-      if (!ring.closed || hull_facets_in(mesh, hull, ring) < 4) continue;
-      cells.clear();
-      for (const CellEdge& e : ring.cells) cells.push_back({e.cell, 0});
-      const std::array<VertexId, 2> key{std::min(v, w), std::max(v, w)};
-      visit(std::binary_search(joined_inside.begin(), joined_inside.end(), key), cells);
+      if (ring.closed && hull_facets_in(mesh, hull, ring) >= 4) visit(w, joins_inside(mesh, hull, v, w, ring), ring);
     }
   }
 }

@@ -70,14 +70,15 @@ class VertexPlanner {
       // The outside is joined across v; at a boundary vertex too, so that the shrink set lets go of the boundary there.
       if (hull_facets / 2 >= 2) unite_side(false);
     } else {
-      for_each_pinched_edge_at(v, [&](bool join_inside, const std::vector<CellCorner>& ring) {
+      pinched_edges_at(mesh_, hull_, v, star_, [&](VertexId w, bool join_inside, const EdgeRing& ring) {
         int first = -1;
-        for (const CellCorner& r : ring) {
+        for (const CellEdge& r : ring.cells) {
           if ((hull_.in_set[r.cell] != 0) != join_inside) continue;
           const int at = position_of(r.cell);
           if (first >= 0) unite(component_, first, at);
           first = at;
         }
+        if (join_inside) plan_.joined_inside.push_back({std::min(v, w), std::max(v, w)});
       });
     }
     for (int i = 0; i < n; ++i) component_[i] = find_root(component_, i);
@@ -90,11 +91,6 @@ class VertexPlanner {
       if (first >= 0) unite(component_, first, i);
       first = i;
     }
-  }
-
-  template <class Visit>
-  void for_each_pinched_edge_at(VertexId v, Visit&& visit) {
-    pinched_edges_at(mesh_, hull_, v, star_, plan_.joined_inside, visit);
   }
 
   int position_of(CellId c) const {
@@ -305,10 +301,10 @@ Status plan_copies(const Mesh<Dim>& mesh, const Hull<Dim>& hull, double shrink, 
   plan.changes.clear();
   plan.copies.clear();
   plan.joined_inside.clear();
-  if constexpr (Dim == 3) find_joined_inside(mesh, hull, plan.joined_inside);
   VertexPlanner<Dim> planner(mesh, hull, shrink, plan);
   for (const VertexId v : hull.vertices)
     if (Status s = planner.run(v); !s.ok()) return s;
+  std::sort(plan.joined_inside.begin(), plan.joined_inside.end());
   return {};
 }
 

@@ -49,14 +49,17 @@ void add_corner_derivatives(const Frame<Dim>& e, int sign, const CornerMetric<Di
     slope2 += slope * slope;
     dT += (2.0 * slope) * Me;
     dd += (slope * sign) * c[j];
+    if (slope != 0.0) {
+      // d f / d l_j = 2 (l_j - s_j / l_j^3), and d is proportional to l_j.
+      const double l = std::sqrt(l2);
+      by_lengths += 2.0 * (l - n / (d * d * l)) * slopes.length_gradient[j];
+      dd_by_lengths += d / l * slopes.length_gradient[j];
+    }
+    if constexpr (Dim == 3)
+      if (slopes.slope[(j + 1) % 3] == 0.0 && slopes.slope[(j + 2) % 3] == 0.0) continue;  // c_j stays
     const Matrix<Dim> Ct = C[j].transpose();
     dN += 2.0 * (Ct * Wc);
-    HN += 2.0 * (Ct * W * C[j]);
-    if (slope == 0.0) continue;
-    // d f / d l_j = 2 (l_j - s_j / l_j^3), and d is proportional to l_j.
-    const double l = std::sqrt(l2);
-    by_lengths += 2.0 * (l - n / (d * d * l)) * slopes.length_gradient[j];
-    dd_by_lengths += d / l * slopes.length_gradient[j];
+    HN += 2.0 * (Ct * (W * C[j]));
   }
   const double i2 = 1.0 / (d * d), i3 = i2 / d, i4 = i2 * i2;
   const Matrix<Dim> cross_terms = dN * dd.transpose();

@@ -155,7 +155,7 @@ void Relocator<Dim>::collect(VertexId v) {
       t.spoke[d] = -1;
       if (end < 0) t.spoke[d] = static_cast<std::int8_t>(spoke_to(t.ends[d]));
       if (end == d) t.spoke[d] = static_cast<std::int8_t>(spoke_to(t.origin));
-      if (t.spoke[d] < 0) sample_points_.push_back(0.5 * (o + mesh_.points[t.ends[d]]));
+      if (Dim == 2 && t.spoke[d] < 0) sample_points_.push_back(0.5 * (o + mesh_.points[t.ends[d]]));
     }
     terms_.push_back(t);
   };
@@ -164,14 +164,19 @@ void Relocator<Dim>::collect(VertexId v) {
     add(c, corner, -1);
     for (int d = 0; d < Dim; ++d) add(c, corner ^ (1 << d), d);
   }
+  // In 3D these edges are six times as many as those that move; there the metric at their ends must do.
   samples_.resize(sample_points_.size());
-  field_.evaluate(sample_points_, samples_);
+  if (Dim == 2) field_.evaluate(sample_points_, samples_);
   std::size_t sample = 0;
   for (Term& t : terms_)
     for (int d = 0; d < Dim; ++d) {
       if (t.spoke[d] >= 0) continue;
       const Point<Dim> e = mesh_.points[t.ends[d]] - mesh_.points[t.origin];
       const double a = std::sqrt(dot(metric_[t.origin].M, e, e)), b = std::sqrt(dot(metric_[t.ends[d]].M, e, e));
+      if (Dim == 3) {
+        t.ratio[d] = mean_length(a, b) / a;
+        continue;
+      }
       const double middle = std::sqrt(dot(samples_[sample++], e, e));
       t.ratio[d] = 0.5 * (mean_length(a, middle) + mean_length(middle, b)) / a;
     }
