@@ -1,6 +1,7 @@
 #include "pillowmesh/refine/buffer_layer.h"
 
 #include "../catch.h"
+#include "checks.h"
 #include "meshes.h"
 #include "pillowmesh/mesh/validate.h"
 
@@ -8,31 +9,21 @@ using namespace pillowmesh;
 
 namespace {
 
+/// Inserts random layers, validating after each. Returns the share of them that gave a mesh. A set that is the whole mesh
+/// has no hull, and is not counted.
 template <int Dim>
-Index euler(const Mesh<Dim>& mesh) {
-  Index boundary = 0, cells = 0;
-  for (CellId c = 0; c < mesh.cell_count(); ++c) {
-    if (!mesh.alive(c)) continue;
-    ++cells;
-    for (int f = 0; f < Cell<Dim>::facets; ++f) boundary += mesh.on_boundary(c, f);
-  }
-  const Index facets = (cells * Cell<Dim>::facets + boundary) / 2;
-  const Index edges = static_cast<Index>(unique_edges(mesh).size());
-  return Dim == 2 ? mesh.vertex_count() - edges + cells : mesh.vertex_count() - edges + facets - cells;
-}
-
-/// Inserts random layers, validating after each. Returns how many of them gave a mesh.
-template <int Dim>
-int insert_at_random(Mesh<Dim> mesh, int trials, std::size_t largest, unsigned seed, bool restart) {
+double insert_at_random(Mesh<Dim> mesh, int trials, std::size_t largest, unsigned seed, bool restart) {
   const Mesh<Dim> initial = mesh;
-  const Index number = euler(mesh);
+  const Index number = checks::euler(mesh);
   std::mt19937 random(seed);
   PillowWorkspace<Dim> work;
   BufferLayer<Dim> layer;
-  int inserted = 0;
+  int inserted = 0, tried = 0;
   for (int i = 0; i < trials; ++i) {
     if (restart) mesh = initial;
     const auto set = corpus::random_set(mesh, 1 + random() % largest, random);
+    if (set.size() == mesh.cells.size()) continue;
+    ++tried;
     const Mesh<Dim> before = mesh;
     const Status s = insert_buffer_layer<Dim>(mesh, set, {}, work, layer);
     INFO("seed " << seed << ", trial " << i << ", set of " << set.size());
@@ -44,10 +35,10 @@ int insert_at_random(Mesh<Dim> mesh, int trials, std::size_t largest, unsigned s
     ++inserted;
     INFO(validate(mesh).message);
     REQUIRE(validate(mesh).ok());
-    REQUIRE(euler(mesh) == number);
+    REQUIRE(checks::euler(mesh) == number);
     REQUIRE(mesh.cell_count() == before.cell_count() + layer.cell_count);
   }
-  return inserted;
+  return static_cast<double>(inserted) / tried;
 }
 
 }  // namespace
@@ -107,14 +98,15 @@ TEST_CASE("two shrunk quads that touch at a vertex get a copy of it each, the re
 TEST_CASE("random layers on quad meshes stay valid and keep the Euler number") {
   for (const auto& [name, mesh] : corpus::meshes<2>()) {
     INFO(name);
-    for (unsigned seed : {1u, 2u, 3u}) CHECK(insert_at_random(mesh, 12, 9, seed, false) >= 8);
-    CHECK(insert_at_random(mesh, 60, 9, 11, true) >= 40);
+    for (unsigned seed : {1u, 2u, 3u}) CHECK(insert_at_random(mesh, 12, 9, seed, false) >= 0.6);
+    CHECK(insert_at_random(mesh, 60, 9, 11, true) >= 0.9);
   }
 }
 
 TEST_CASE("random layers on hex meshes stay valid and keep the Euler number") {
   for (const auto& [name, mesh] : corpus::meshes<3>()) {
     INFO(name);
-    CHECK(insert_at_random(mesh, 60, 25, 5, true) >= 40);
+    CHECK(insert_at_random(mesh, 60, 8, 5, true) >= 0.88);
+    CHECK(insert_at_random(mesh, 20, 25, 6, true) >= 0.4);  // large random sets have hulls that no position untangles
   }
 }
