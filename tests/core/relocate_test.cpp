@@ -78,6 +78,32 @@ TEST_CASE("the derivatives of the corner energy are those of its differences") {
   }
 }
 
+TEST_CASE("a corner with all edges but one held has the same energy and derivatives") {
+  std::mt19937 random(4);
+  const auto noise = [&] { return random() / 4294967296.0 - 0.5; };
+  for (int trial = 0; trial < 10; ++trial) {
+    SymTensor<3> M = SymTensor<3>::isotropic(0.7);
+    for (double& m : M.m) m += 0.5 * noise();
+    const auto metric = corner_metric(M);
+    Frame<3> e;
+    for (int d = 0; d < 3; ++d)
+      for (int i = 0; i < 3; ++i) e[d][i] = (i == d) + 0.4 * noise();
+    const int end = trial % 3;
+    const double slope = 0.5 + noise();
+    EdgeSlopes<3> slopes;
+    slopes.slope.fill(0.0);
+    slopes.slope[end] = slope;
+    for (auto& g : slopes.length_gradient) g = Point<3>(noise(), noise(), noise());
+    const auto held = hold_corner(e, 1, metric, end);
+    CHECK(held_energy(held, e[end]) == Approx(corner_energy(e, 1, metric)));
+    Derivatives<3> general, short_cut;
+    add_corner_derivatives(e, 1, metric, slopes, general);
+    add_held_derivatives(held, e[end], slope, slopes.length_gradient[end], short_cut);
+    CHECK(short_cut.value == Approx(general.value));
+    for (int i = 0; i < 3; ++i) CHECK(short_cut.gradient[i] == Approx(general.gradient[i]).margin(1e-12));
+  }
+}
+
 TEST_CASE("a degenerate or inverted corner has infinite energy") {
   const auto metric = corner_metric(SymTensor<2>::isotropic(1));
   CHECK(corner_energy<2>({{Point<2>(1, 0), Point<2>(2, 0)}}, 1, metric) == INFINITY);

@@ -81,4 +81,51 @@ template void add_corner_derivatives<2>(const Frame<2>&, int, const CornerMetric
 template void add_corner_derivatives<3>(const Frame<3>&, int, const CornerMetric<3>&, const EdgeSlopes<3>&,
                                         Derivatives<3>&);
 
+template <int Dim>
+HeldCorner<Dim> hold_corner(const Frame<Dim>& e, int sign, const CornerMetric<Dim>& metric, int end) {
+  HeldCorner<Dim> h;
+  h.M = metric.M;
+  h.root_determinant = metric.root_determinant;
+  h.c = sign * cofactors(e)[end];  // does not contain e[end]
+  h.n0 = dot(metric.inverse, h.c, h.c);
+  h.t0 = 0.0;
+  h.Q = {};
+  std::array<double, Dim> slope{};
+  slope[end] = 1.0;
+  std::array<Matrix<Dim>, Dim> C;  // d c_j / d e[end]
+  cofactor_derivatives(e, slope, C);
+  const Matrix<Dim> W = to_matrix(metric.inverse);
+  for (int j = 0; j < Dim; ++j) {
+    if (j == end) continue;
+    h.t0 += dot(metric.M, e[j], e[j]);
+    const Matrix<Dim> WC = W * C[j];
+    for (int a = 0; a < Dim; ++a)
+      for (int b = a; b < Dim; ++b) h.Q(a, b) += C[j].col(a).dot(WC.col(b));
+  }
+  return h;
+}
+
+template <int Dim>
+void add_held_derivatives(const HeldCorner<Dim>& h, const Point<Dim>& e, double slope,
+                          const Point<Dim>& length_gradient, Derivatives<Dim>& sum) {
+  const Point<Dim> Me = multiply(h.M, e), Qe = multiply(h.Q, e);
+  const double d = h.c.dot(e), i = 1.0 / d, l2 = e.dot(Me);
+  const double T = h.t0 + l2, N = h.n0 + e.dot(Qe);
+  const double q = h.root_determinant / (2 * Dim), w = h.root_determinant * (size_weight - 1.0);
+  // E = q (T d + N / d) + w d
+  const Point<Dim> dE = (2.0 * q * d) * Me + (2.0 * q * i) * Qe + (q * (T - N * i * i) + w) * h.c;
+  sum.value += q * (T * d + N * i) + w * d;
+  sum.gradient += slope * dE + (dE.dot(e) / std::sqrt(l2)) * length_gradient;
+  const Point<Dim> u = (2.0 * q) * Me - (2.0 * q * i * i) * Qe + (q * N * i * i * i) * h.c;
+  const double s2 = slope * slope;
+  for (int a = 0; a < Dim; ++a)
+    for (int b = 0; b < Dim; ++b)
+      sum.hessian(a, b) += s2 * (2.0 * q * (d * h.M(a, b) + i * h.Q(a, b)) + u[a] * h.c[b] + h.c[a] * u[b]);
+}
+
+template HeldCorner<2> hold_corner(const Frame<2>&, int, const CornerMetric<2>&, int);
+template HeldCorner<3> hold_corner(const Frame<3>&, int, const CornerMetric<3>&, int);
+template void add_held_derivatives(const HeldCorner<2>&, const Point<2>&, double, const Point<2>&, Derivatives<2>&);
+template void add_held_derivatives(const HeldCorner<3>&, const Point<3>&, double, const Point<3>&, Derivatives<3>&);
+
 }  // namespace pillowmesh

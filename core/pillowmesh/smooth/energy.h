@@ -129,4 +129,31 @@ template <int Dim>
 void add_corner_derivatives(const Frame<Dim>& e, int sign, const CornerMetric<Dim>& metric,
                             const EdgeSlopes<Dim>& slopes, Derivatives<Dim>& sum);
 
+/// A corner of which one edge moves and the others are held: as a function of that edge e,
+/// T = t0 + e' M e, N = n0 + e' Q e and d = c . e, so that energy and derivatives are a few products.
+template <int Dim>
+struct HeldCorner {
+  SymTensor<Dim> M, Q;
+  Point<Dim> c;
+  double t0, n0, root_determinant;
+};
+
+/// Holds all edges but `end` of a corner. e[end] is not read.
+template <int Dim>
+HeldCorner<Dim> hold_corner(const Frame<Dim>& e, int sign, const CornerMetric<Dim>& metric, int end);
+
+/// The corner's energy with its moving edge at e; infinite when it is degenerate or inside out.
+template <int Dim>
+inline double held_energy(const HeldCorner<Dim>& h, const Point<Dim>& e) {
+  const double d = h.c.dot(e);
+  if (!(d > 0)) return std::numeric_limits<double>::infinity();
+  const double T = h.t0 + dot(h.M, e, e), N = h.n0 + dot(h.Q, e, e);
+  return h.root_determinant * ((T * d + N / d) / (2 * Dim) + (size_weight - 1.0) * d);
+}
+
+/// Adds the energy and its derivatives, where d e / d x = slope I; `length_gradient` as in EdgeSlopes.
+template <int Dim>
+void add_held_derivatives(const HeldCorner<Dim>& h, const Point<Dim>& e, double slope,
+                          const Point<Dim>& length_gradient, Derivatives<Dim>& sum);
+
 }  // namespace pillowmesh

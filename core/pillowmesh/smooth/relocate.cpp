@@ -140,46 +140,56 @@ int Relocator<Dim>::spoke_to(VertexId w) {
 
 template <int Dim>
 void Relocator<Dim>::collect(VertexId v) {
-  using C = Cell<Dim>;
   vertex_star(mesh_, v, star_);
-  terms_.clear();
+  corners_.clear();
+  far_corners_.clear();
   spokes_.clear();
-  const auto add = [&](CellId c, int corner, int end) {
-    Term t;
-    t.origin = mesh_.cells[c][corner];
-    t.sign = static_cast<std::int8_t>(C::corner_sign(corner));
-    t.end = static_cast<std::int8_t>(end);
-    const Point<Dim>& o = mesh_.points[t.origin];
-    for (int d = 0; d < Dim; ++d) {
-      t.ends[d] = mesh_.cells[c][corner ^ (1 << d)];
-      t.spoke[d] = -1;
-      if (end < 0) t.spoke[d] = static_cast<std::int8_t>(spoke_to(t.ends[d]));
-      if (end == d) t.spoke[d] = static_cast<std::int8_t>(spoke_to(t.origin));
-      if (Dim == 2 && t.spoke[d] < 0) sample_points_.push_back(0.5 * (o + mesh_.points[t.ends[d]]));
-    }
-    terms_.push_back(t);
-  };
-  sample_points_.clear();
   for (const auto& [c, corner] : star_) {
-    add(c, corner, -1);
-    for (int d = 0; d < Dim; ++d) add(c, corner ^ (1 << d), d);
-  }
-  // In 3D these edges are six times as many as those that move; there the metric at their ends must do.
-  samples_.resize(sample_points_.size());
-  if (Dim == 2) field_.evaluate(sample_points_, samples_);
-  std::size_t sample = 0;
-  for (Term& t : terms_)
+    Corner here;
+    here.sign = static_cast<std::int8_t>(Cell<Dim>::corner_sign(corner));
     for (int d = 0; d < Dim; ++d) {
-      if (t.spoke[d] >= 0) continue;
-      const Point<Dim> e = mesh_.points[t.ends[d]] - mesh_.points[t.origin];
-      const double a = std::sqrt(dot(metric_[t.origin].M, e, e)), b = std::sqrt(dot(metric_[t.ends[d]].M, e, e));
-      if (Dim == 3) {
-        t.ratio[d] = mean_length(a, b) / a;
-        continue;
-      }
-      const double middle = std::sqrt(dot(samples_[sample++], e, e));
-      t.ratio[d] = 0.5 * (mean_length(a, middle) + mean_length(middle, b)) / a;
+      const int k = corner ^ (1 << d);
+      here.spoke[d] = static_cast<std::int8_t>(spoke_to(mesh_.cells[c][k]));
+      FarCorner& far = far_corners_.emplace_back();
+      far.origin = mesh_.cells[c][k];
+      far.sign = static_cast<std::int8_t>(Cell<Dim>::corner_sign(k));
+      far.end = static_cast<std::int8_t>(d);
+      far.spoke = here.spoke[d];
+      for (int j = 0; j < Dim; ++j) far.ends[j] = mesh_.cells[c][k ^ (1 << j)];
     }
+    corners_.push_back(here);
+  }
+  hold_far_corners();
+}
+
+/// The edges of the far corners that do not move, scaled to their integrated lengths. In 3D they are six times as many as
+/// those that move; there the metric at their ends must do.
+template <int Dim>
+void Relocator<Dim>::hold_far_corners() {
+  if constexpr (Dim == 2) {
+    sample_points_.clear();
+    for (const FarCorner& far : far_corners_)
+      sample_points_.push_back(0.5 * (mesh_.points[far.origin] + mesh_.points[far.ends[1 - far.end]]));
+    samples_.resize(sample_points_.size());
+    field_.evaluate(sample_points_, samples_);
+  }
+  std::size_t sample = 0;
+  Frame<Dim> e;
+  for (FarCorner& far : far_corners_) {
+    const CornerMetric<Dim>& metric = metric_[far.origin];
+    for (int d = 0; d < Dim; ++d) {
+      e[d] = mesh_.points[far.ends[d]] - mesh_.points[far.origin];
+      if (d == far.end) continue;
+      const double a = std::sqrt(dot(metric.M, e[d], e[d])), b = std::sqrt(dot(metric_[far.ends[d]].M, e[d], e[d]));
+      double length = mean_length(a, b);
+      if constexpr (Dim == 2) {
+        const double middle = std::sqrt(dot(samples_[sample++], e[d], e[d]));
+        length = 0.5 * (mean_length(a, middle) + mean_length(middle, b));
+      }
+      e[d] *= length / a;
+    }
+    far.held = hold_corner(e, far.sign, metric, far.end);
+  }
 }
 
 /// The metric at a candidate position and on the edges there; their integrated lengths go to spokes_. One point in the
@@ -223,29 +233,19 @@ void Relocator<Dim>::evaluate(const Point<Dim>& position, Candidate& at) {
 }
 
 template <int Dim>
-void Relocator<Dim>::scaled_frame(const Term& t, VertexId v, const Candidate& at, Frame<Dim>& e,
-                                  std::array<double, Dim>& ratio) const {
-  const Point<Dim>& o = t.end < 0 ? at.position : mesh_.points[t.origin];
-  for (int d = 0; d < Dim; ++d) {
-    e[d] = (t.ends[d] == v ? at.position : mesh_.points[t.ends[d]]) - o;
-    if (t.spoke[d] >= 0) {
-      const Spoke& s = spokes_[t.spoke[d]];
-      ratio[d] = s.length / (t.end < 0 ? s.here : s.there);
-    } else {
-      ratio[d] = t.ratio[d];
-    }
-    e[d] *= ratio[d];
-  }
-}
-
-template <int Dim>
-double Relocator<Dim>::energy_at(VertexId v, const Candidate& at) const {
+double Relocator<Dim>::energy_at(const Candidate& at) const {
   double sum = 0.0;
+  for (const FarCorner& far : far_corners_) {
+    const Spoke& s = spokes_[far.spoke];
+    sum += held_energy(far.held, Point<Dim>((s.length / s.there) * (at.position - mesh_.points[s.end])));
+  }
   Frame<Dim> e;
-  std::array<double, Dim> ratio;
-  for (const Term& t : terms_) {
-    scaled_frame(t, v, at, e, ratio);
-    sum += corner_energy(e, t.sign, t.end < 0 ? at.metric : metric_[t.origin]);
+  for (const Corner& corner : corners_) {
+    for (int d = 0; d < Dim; ++d) {
+      const Spoke& s = spokes_[corner.spoke[d]];
+      e[d] = (s.length / s.here) * (mesh_.points[s.end] - at.position);
+    }
+    sum += corner_energy(e, corner.sign, at.metric);
   }
   return sum;
 }
@@ -253,24 +253,30 @@ double Relocator<Dim>::energy_at(VertexId v, const Candidate& at) const {
 /// Exact for lengths and angles with the metric held fixed, except that the gradient of a length is that of its integral:
 /// by the first variation it depends on the metric at the moving end alone, d l / d x = -M e / |e|_M.
 template <int Dim>
-Derivatives<Dim> Relocator<Dim>::derivatives_at(VertexId v, const Candidate& at) const {
+Derivatives<Dim> Relocator<Dim>::derivatives_at(const Candidate& at) const {
   Derivatives<Dim> sum;
+  const auto length_gradient = [&](const Spoke& s, const SymTensor<Dim>& M, double length) {
+    const Point<Dim> out = mesh_.points[s.end] - at.position;
+    const Point<Dim> integrated = -1.0 / s.here * multiply(at.metric.M, out);
+    const Point<Dim> frozen = -s.length / (length * length) * multiply(M, out);
+    return Point<Dim>(integrated - frozen);
+  };
+  for (const FarCorner& far : far_corners_) {
+    const Spoke& s = spokes_[far.spoke];
+    const double ratio = s.length / s.there;
+    add_held_derivatives(far.held, Point<Dim>(ratio * (at.position - mesh_.points[s.end])), ratio,
+                         length_gradient(s, far.held.M, s.there), sum);
+  }
   Frame<Dim> e;
-  std::array<double, Dim> ratio;
   EdgeSlopes<Dim> slopes;
-  for (const Term& t : terms_) {
-    scaled_frame(t, v, at, e, ratio);
-    const CornerMetric<Dim>& metric = t.end < 0 ? at.metric : metric_[t.origin];
+  for (const Corner& corner : corners_) {
     for (int d = 0; d < Dim; ++d) {
-      slopes.slope[d] = t.end < 0 ? -ratio[d] : (t.end == d ? ratio[d] : 0.0);
-      if (t.spoke[d] < 0) continue;
-      const Spoke& s = spokes_[t.spoke[d]];
-      const Point<Dim> out = mesh_.points[s.end] - at.position;
-      const Point<Dim> integrated = -1.0 / s.here * multiply(at.metric.M, out);
-      const Point<Dim> frozen = -ratio[d] / (t.end < 0 ? s.here : s.there) * multiply(metric.M, out);
-      slopes.length_gradient[d] = integrated - frozen;
+      const Spoke& s = spokes_[corner.spoke[d]];
+      slopes.slope[d] = -s.length / s.here;
+      slopes.length_gradient[d] = length_gradient(s, at.metric.M, s.here);
+      e[d] = (s.length / s.here) * (mesh_.points[s.end] - at.position);
     }
-    add_corner_derivatives(e, t.sign, metric, slopes, sum);
+    add_corner_derivatives(e, corner.sign, at.metric, slopes, sum);
   }
   return sum;
 }
@@ -301,7 +307,7 @@ double Relocator<Dim>::relocate(VertexId v) {
   double shortest2 = std::numeric_limits<double>::infinity();
   for (const Spoke& s : spokes_) shortest2 = std::min(shortest2, (mesh_.points[s.end] - now.position).squaredNorm());
   const double shortest = std::sqrt(shortest2);
-  const Derivatives<Dim> d = derivatives_at(v, now);
+  const Derivatives<Dim> d = derivatives_at(now);
   last_energy_ = d.value;
   last_decrease_ = 0.0;
   Point<Dim> step;
@@ -318,7 +324,7 @@ double Relocator<Dim>::relocate(VertexId v) {
     Index anchor = mesh_.anchor[v];
     Candidate next;
     evaluate(slide(*mesh_.geometry, mesh_.support[v], anchor, Point<Dim>(now.position + t * step)), next);
-    const double energy = energy_at(v, next);
+    const double energy = energy_at(next);
     if (!(energy <= d.value + 1e-4 * t * slope)) continue;
     const Point<Dim> move = next.position - now.position;
     mesh_.points[v] = next.position;

@@ -55,14 +55,17 @@ class Relocator {
     double there;   ///< length in the metric at its other end
     bool varies;    ///< these differ a lot
   };
-  /// A corner whose energy depends on the vertex being moved.
-  struct Term {
+  /// A corner at the vertex being moved.
+  struct Corner {
+    std::array<std::int8_t, Dim> spoke;  ///< position in spokes_ of each edge
+    std::int8_t sign;
+  };
+  /// A corner at the far end of a spoke; only its edge to the vertex moves.
+  struct FarCorner {
     VertexId origin;
     std::array<VertexId, Dim> ends;
-    std::int8_t sign;
-    std::int8_t end;                     ///< which of its edges ends at the vertex; -1: the vertex is the corner
-    std::array<std::int8_t, Dim> spoke;  ///< position in spokes_ of each edge, -1 for those that do not move
-    std::array<double, Dim> ratio;       ///< integrated length over length in the corner's metric, of those
+    std::int8_t sign, end, spoke;
+    HeldCorner<Dim> held;
   };
   struct Candidate {
     Point<Dim> position;
@@ -72,9 +75,9 @@ class Relocator {
   void collect(VertexId v);
   int spoke_to(VertexId w);
   void evaluate(const Point<Dim>& position, Candidate& at);
-  void scaled_frame(const Term& t, VertexId v, const Candidate& at, Frame<Dim>& e, std::array<double, Dim>& ratio) const;
-  [[nodiscard]] double energy_at(VertexId v, const Candidate& at) const;
-  [[nodiscard]] Derivatives<Dim> derivatives_at(VertexId v, const Candidate& at) const;
+  void hold_far_corners();
+  [[nodiscard]] double energy_at(const Candidate& at) const;
+  [[nodiscard]] Derivatives<Dim> derivatives_at(const Candidate& at) const;
   [[nodiscard]] double lowest_scaled_jacobian() const;
   bool newton_step(VertexId v, const Derivatives<Dim>& d, Point<Dim>& step) const;
 
@@ -84,7 +87,8 @@ class Relocator {
   std::vector<CornerMetric<Dim>> metric_;  ///< per vertex
   std::vector<std::uint8_t> active_;       ///< per vertex: may gain
   std::vector<CellCorner> star_;
-  std::vector<Term> terms_;
+  std::vector<Corner> corners_;
+  std::vector<FarCorner> far_corners_;
   std::vector<Spoke> spokes_;
   std::vector<Point<Dim>> sample_points_;
   std::vector<SymTensor<Dim>> samples_;
