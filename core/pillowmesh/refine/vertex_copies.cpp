@@ -160,11 +160,11 @@ class VertexPlanner {
       } else {  // v is a corner: the curve that leaves it between the two patches
         const std::array<PatchId, 2> pair{std::min(patch[0], patch[1]), std::max(patch[0], patch[1])};
         Index curve = kNone;
-        for (const auto& [c, corner] : star_)
-          for (int axis = 0; axis < Dim; ++axis) {
-            const VertexSupport s = mesh_.support[mesh_.cells[c][corner ^ (1 << axis)]];
-            if (s.dim == 1 && mesh_.geometry->curve_patches[s.entity] == pair) curve = s.entity;
-          }
+        const auto& g = *mesh_.geometry;
+        for (std::size_t i = 0; i < g.segments.size() && curve == kNone; ++i)
+          if (g.curve_patches[g.curve[i]] == pair &&
+              (g.points[g.segments[i][0]] == mesh_.points[v] || g.points[g.segments[i][1]] == mesh_.points[v]))
+            curve = g.curve[i];
         if (curve == kNone) return false;
         support = {1, curve};
       }
