@@ -9,11 +9,12 @@ import { main, root } from './run.mjs';
 /** What each picture shows: the state as a link, the size in CSS pixels, and which part of the page. */
 const pictures = [
   {
-    name: 'hero',
-    hash: 'case=circle2d&smooth=between&event=last&colour=shape&hide=ellipses',
-    width: 1360,
-    height: 850,
+    name: 'hex',
+    hash: 'case=linear3d&event=last&edges=irregular&cut=plane:-90,0,0.5&view=0.5,0.6,0.5;1.1;0.5,-0.75,0.4',
+    width: 1280,
+    height: 800,
     scheme: 'light',
+    scale: 1,
   },
   { name: 'page-dark', hash: 'case=circle2d&event=70&hide=ellipses', width: 1360, height: 850, scheme: 'dark' },
   ...['tags', 'layer', 'shrink', 'connect'].map((name, i) => ({
@@ -58,14 +59,14 @@ async function settle(page) {
   }
 }
 
-async function take(browser, address, { name, hash, width, height, scheme, part }) {
+async function take(browser, address, { name, hash, width, height, scheme, part, scale = 1.5 }) {
   const page = await browser.newPage({
     viewport: { width, height },
     colorScheme: scheme,
     reducedMotion: 'reduce',
-    deviceScaleFactor: 1.5,
+    deviceScaleFactor: scale,
   });
-  await page.goto(`${address}#${hash.replace('event=last', 'event=1000000')}`);
+  await page.goto(`${address}#${hash}`);
   await settle(page);
   const target = part ? page.locator(part) : page;
   writeFileSync(join(root, 'docs', 'images', `${name}.png`), await target.screenshot());

@@ -17,9 +17,14 @@ afterAll(async () => {
   await site?.close();
 });
 
+const states = {
+  quads: 'case=iso2d&event=3&colour=shape',
+  hexes: 'case=linear3d&event=3&colour=shape&cut=slab:-90,0,0.6,0.5&peel=0&edges=irregular',
+};
+
 for (const colorScheme of ['light', 'dark'] as const)
-  for (const width of [1280, 360])
-    test(`axe finds nothing to complain of, ${colorScheme}, ${width} pixels wide`, async () => {
+  for (const [width, cells] of [[1280, 'quads'], [360, 'quads'], [1280, 'hexes'], [360, 'hexes']] as const)
+    test(`axe finds nothing to complain of: ${cells}, ${colorScheme}, ${width} pixels wide`, async () => {
       const context = await browser.newContext({
         colorScheme,
         viewport: { width, height: 800 },
@@ -27,7 +32,7 @@ for (const colorScheme of ['light', 'dark'] as const)
         bypassCSP: true,
       });
       const page = await context.newPage();
-      await page.goto(`${site.address}#case=iso2d&event=3&colour=shape`);
+      await page.goto(`${site.address}#${states[cells]}`);
       await expect.poll(() => page.locator('.counter').innerText(), { timeout: 30_000 }).toMatch(/^3 \/ \d+$/);
       await page.evaluate(axe);
       const violations = await page.evaluate(async () => {

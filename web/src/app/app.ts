@@ -4,18 +4,21 @@ import { CoreError } from '../../../wasm/session.ts';
 import { makeHeader, type SaveFormat } from '../panels/header.ts';
 import { makeHelp } from '../panels/help.ts';
 import { makeIndicators } from '../panels/indicators.ts';
+import { makeLookInside } from '../panels/look_inside.ts';
 import { makeMessages } from '../panels/messages.ts';
 import { makePictureTools } from '../panels/picture_tools.ts';
 import { makeSetup } from '../panels/setup.ts';
 import { makeTransport } from '../panels/transport.ts';
+import { looksInside } from '../inside/look_inside.ts';
 import { captionOf } from '../replay/caption.ts';
 import { Player } from '../replay/player.ts';
 import { decodeSettings, encodeSettings } from '../state/permalink.ts';
-import { colourings, paces, type Mark, type MeshChoice, type Pace, type Settings } from '../state/settings.ts';
+import { type Mark, type MeshChoice, type Pace, type Settings } from '../state/settings.ts';
 import { debounce, h } from '../ui/dom.ts';
 import { icon } from '../ui/icons.ts';
 import { acceptDrops } from './drop.ts';
 import { listenToKeys } from './keyboard.ts';
+import { keyActions } from './keys.ts';
 import { Picture } from './picture.ts';
 import { Refresher } from './refresher.ts';
 import { RunControl } from './run_control.ts';
@@ -45,7 +48,12 @@ export class App {
   private readonly messages = makeMessages();
   private readonly indicators = makeIndicators();
   private readonly help = makeHelp(() => this.version);
+  private readonly inside = makeLookInside({
+    change: (inside) => this.change({ inside }),
+    viewDirection: () => this.picture.direction,
+  });
   private readonly tools = makePictureTools({
+    inside: this.inside.toggle,
     toggleMark: (mark) => this.toggleMark(mark),
     setColouring: (colouring) => this.change({ colouring }),
     fit: () => this.picture.fit(),
@@ -62,6 +70,7 @@ export class App {
   });
   private readonly setup = makeSetup({
     chooseCase: (name) => void this.open({ kind: 'case', name }, ''),
+    chooseFigure: ({ link }) => void this.follow(decodeSettings(link)),
     chooseGrid: (spec) => spec && void this.open({ kind: 'grid', spec }, this.setup.formula.text()),
     chooseFile: (file) => void this.openFile(file),
     changeFormula: debounce(300, (text: string) => void this.applyFormula(text)),
@@ -104,7 +113,13 @@ export class App {
         h(
           'section',
           { class: 'view', 'aria-label': 'Picture' },
-          h('div', { class: 'frame' }, this.tools.element, this.picture.host, this.tools.legend, this.start_, problem),
+          h(
+            'div',
+            { class: 'frame' },
+            this.tools.element,
+            h('div', { class: 'stage' }, this.picture.host, this.tools.legend, this.start_, problem),
+            this.inside.element,
+          ),
           this.transport.caption,
           this.transport.element,
         ),
@@ -120,6 +135,7 @@ export class App {
 
   private listen(): void {
     const { player, workshop } = this;
+    const refresh = (): void => this.refresh();
     const reduced = matchMedia('(prefers-reduced-motion: reduce)');
     player.still = reduced.matches;
     reduced.addEventListener('change', () => (player.still = reduced.matches));
@@ -136,38 +152,28 @@ export class App {
     workshop.onCrash = (error) =>
       this.messages.show({ kind: 'error', text: error.message, action: this.restartAction() });
     this.picture.onPose = () => this.rewriteLink();
+    this.picture.onInside = (report) => report && this.inside.setReport(report);
     followTheme(() => {
       this.picture.retheme();
       this.refresh();
     });
     acceptDrops((file) => void this.openFile(file));
     addEventListener('hashchange', () => void this.followLink());
-    addEventListener(
-      'resize',
-      debounce(100, () => this.refresh()),
+    addEventListener('resize', debounce(100, refresh));
+    listenToKeys(
+      keyActions({
+        settings: () => this.settings,
+        change: (patch) => this.change(patch),
+        toggleMark: (mark) => this.toggleMark(mark),
+        setPace: (pace) => this.setPace(pace),
+        openFile: () => this.setup.openFileDialog(),
+        help: () => this.help.showModal(),
+        run: this.run,
+        player,
+        picture: this.picture,
+        inside: this.inside,
+      }),
     );
-    const mark = (name: Mark) => () => this.toggleMark(name);
-    listenToKeys({
-      ' ': () => this.run.togglePlay(),
-      ArrowLeft: () => this.run.step(-1),
-      ArrowRight: () => this.run.step(1),
-      'Shift+ArrowLeft': () => player.stepIteration(-1),
-      'Shift+ArrowRight': () => player.stepIteration(1),
-      Home: () => player.seek(0),
-      End: () => player.seek(player.events.length),
-      '+': () => this.setPace(paces[Math.min(paces.length - 1, paces.indexOf(player.pace) + 1)]),
-      '-': () => this.setPace(paces[Math.max(0, paces.indexOf(player.pace) - 1)]),
-      t: mark('tags'),
-      l: mark('layer'),
-      h: mark('hull'),
-      b: mark('buffer'),
-      m: mark('ellipses'),
-      c: () =>
-        this.change({ colouring: colourings[(colourings.indexOf(this.settings.colouring) + 1) % colourings.length] }),
-      f: () => this.picture.fit(),
-      o: () => this.setup.openFileDialog(),
-      '?': () => this.help.showModal(),
-    });
   }
 
   // ---- opening
@@ -185,24 +191,24 @@ export class App {
       return;
     }
     await this.applySettings();
-    await this.pictureLoaded;
-    if (this.settings.camera) this.picture.pose = this.settings.camera;
   }
 
   /** Makes the page show what the settings say. */
   private async applySettings(): Promise<void> {
-    const { mesh, formula, event, pace } = this.settings;
+    const { mesh, formula, event, pace, camera } = this.settings;
     this.player.pace = pace;
     this.picture.setLook(this.settings);
+    if (looksInside(this.settings.inside)) this.inside.setOpen(true);
     if (mesh.kind === 'file' && !this.subject.file) {
       await this.open({ kind: 'case', name: 'iso2d' }, '');
       this.messages.show({
         kind: 'error',
-        text: `This link belongs to the mesh file “${mesh.name}”, which is not part of it. Drop that file here to go on.`,
+        text: `This link belongs to the mesh file “${mesh.name}”, which it does not hold. Drop that file here to go on.`,
       });
       return;
     }
     const done = await this.open(mesh, formula, true);
+    if (done && camera) void this.pictureLoaded.then(() => (this.picture.pose = camera));
     if (!done && this.subject.empty) await this.open({ kind: 'case', name: 'iso2d' }, '', true);
     else if (done && event !== null && event > 0) {
       await this.run.start({ show: event });
@@ -210,10 +216,14 @@ export class App {
   }
 
   private async followLink(): Promise<void> {
-    if (location.hash.slice(1) === this.link()) return;
-    this.settings = decodeSettings(location.hash);
+    if (location.hash.slice(1) !== this.link()) await this.follow(decodeSettings(location.hash));
+  }
+
+  /** Shows what a link or a figure says. */
+  private async follow(settings: Settings): Promise<void> {
+    this.messages.clear();
+    this.settings = settings;
     await this.applySettings();
-    this.picture.pose = this.settings.camera;
   }
 
   /** Opens a mesh with a metric, see Subject.open. False when it was refused. */
@@ -229,6 +239,8 @@ export class App {
     if (!fromLink) {
       this.messages.clear();
       this.settings.camera = null;
+      const { inside } = this.settings; // layers and qualities are those of another mesh
+      this.change({ inside: { ...inside, peel: 0, quality: { ...inside.quality, low: 0, high: 1 } } });
     }
     this.settings.mesh = choice;
     this.setup.formula.setText(text);
@@ -325,6 +337,7 @@ export class App {
       summary: this.subject.empty ? '' : summaryOf(settings.mesh, this.subject.initial),
     });
     this.tools.update({ marks: settings.marks, colouring: settings.colouring, dim: player.mesh.dim });
+    this.inside.update(settings.inside, player.mesh.dim);
     this.tools.setLegend(legendOf(settings.colouring, this.picture.colours, player.iterations));
     this.start_.hidden = this.run.hasRun || this.subject.empty;
     this.indicators.setIrregular(player.atEnd && player.complete ? this.run.irregular : null);

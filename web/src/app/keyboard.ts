@@ -5,7 +5,10 @@ function usesKey(target: EventTarget | null, key: string): boolean {
   if (!(target instanceof HTMLElement)) return false;
   if (target.closest('dialog')) return true;
   if (target instanceof HTMLTextAreaElement || target.isContentEditable) return true;
-  if (target instanceof HTMLInputElement && target.type === 'range') return false;
+  // The timeline's keys are the page's; other sliders keep theirs.
+  if (target instanceof HTMLInputElement && target.type === 'range')
+    return !target.closest('.timeline') && /^(Arrow|Page|Home|End)/.test(key);
+  if (target instanceof HTMLInputElement && target.type === 'checkbox') return key === ' ';
   if (target instanceof HTMLInputElement && target.type === 'radio') return key === ' ' || key.startsWith('Arrow');
   if (target instanceof HTMLInputElement || target instanceof HTMLSelectElement) return true;
   return key === ' ' && target.closest('button, summary, a') !== null;

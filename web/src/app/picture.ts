@@ -1,5 +1,6 @@
 // The picture and what belongs to it: loaded when needed, survives a browser without WebGL.
 import type { MeshArrays } from '../../../wasm/session.ts';
+import { defaultInside, type Inside } from '../inside/look_inside.ts';
 import { cellWord } from '../replay/caption.ts';
 import type { Player, Shown } from '../replay/player.ts';
 import { ReplayMesh } from '../replay/replay_mesh.ts';
@@ -8,12 +9,14 @@ import type { CameraPose, Colouring, Mark } from '../state/settings.ts';
 import { h } from '../ui/dom.ts';
 import { sampleEllipses } from '../viewport/ellipse_samples.ts';
 import { colourMaps, readPalette } from '../viewport/palette.ts';
+import type { InsideReport } from '../viewport/hex_body.ts';
 import type { Viewport } from '../viewport/viewport.ts';
 import { currentTheme } from './theme.ts';
 
 export interface Look {
   colouring: Colouring;
   marks: Record<Mark, boolean>;
+  inside: Inside;
 }
 
 export class Picture {
@@ -22,11 +25,14 @@ export class Picture {
   onPose: () => void = () => undefined;
   /** Called with a sentence when drawing is impossible or comes back (null). */
   onProblem: (sentence: string | null) => void = () => undefined;
+  /** Called with what there is to see of a hexahedral mesh; null in 2D. */
+  onInside: (report: InsideReport | null) => void = () => undefined;
 
   private viewport: Viewport | null = null;
   private look: Look = {
     colouring: 'plain',
     marks: { tags: true, layer: true, hull: true, buffer: true, ellipses: true },
+    inside: defaultInside(),
   };
   private shapes = new Float64Array(0);
   private readonly player: Player;
@@ -79,8 +85,10 @@ export class Picture {
     let origins: ((vertex: number) => ArrayLike<number> | undefined) | undefined;
     if (delta && animate > 0) {
       const known = new Map<number, ArrayLike<number>>();
+      // In 2D faces know where they were; in 3D other faces may be drawn than before.
+      const first = mesh.dim === 2 ? delta.verticesBefore : 0;
       delta.vertices.forEach((v, i) => {
-        if (v >= delta.verticesBefore) known.set(v, delta.oldPoints.subarray(i * mesh.dim, (i + 1) * mesh.dim));
+        if (v >= first) known.set(v, delta.oldPoints.subarray(i * mesh.dim, (i + 1) * mesh.dim));
       });
       origins = (vertex) => known.get(vertex);
     }
@@ -89,14 +97,16 @@ export class Picture {
   }
 
   setLook(look: Look): void {
-    this.look = { colouring: look.colouring, marks: { ...look.marks } };
+    this.look = { colouring: look.colouring, marks: { ...look.marks }, inside: look.inside };
     this.applyLook();
   }
 
   /** Shapes of the cells, measured a moment ago; colours of cells made since are left out. */
   setShapes(shapes: Float64Array<ArrayBuffer>): void {
     this.shapes = shapes;
-    if (this.look.colouring === 'shape') this.paint();
+    const { quality } = this.look.inside;
+    const filtered = quality.measure === 'eta' && (quality.low > 0 || quality.high < 1);
+    if (this.look.colouring === 'shape' || (filtered && this.player.mesh.dim === 3)) this.paint();
   }
 
   /** Samples and draws the metric ellipses over an initial mesh. */
@@ -130,6 +140,11 @@ export class Picture {
     else this.viewport?.fit();
   }
 
+  /** From the mesh to the eye; null when nothing is drawn. */
+  get direction(): number[] | null {
+    return this.viewport?.direction ?? null;
+  }
+
   fit(): void {
     this.viewport?.fit();
   }
@@ -141,6 +156,7 @@ export class Picture {
 
   private applyLook(): void {
     this.viewport?.setMarks(this.look.marks);
+    this.viewport?.setInside(this.look.inside);
     this.viewport?.setColours(this.colours);
     this.paint();
   }
@@ -148,7 +164,8 @@ export class Picture {
   private paint(): void {
     const { mesh, events, index } = this.player;
     this.viewport?.setEllipseStrength(index > 0 ? 0.42 : 1);
-    this.viewport?.setScene(mesh, sceneAfter(events, index), this.valueOf(mesh));
+    const report = this.viewport?.setScene(mesh, sceneAfter(events, index), this.valueOf(mesh), this.shapes);
+    this.onInside(report ?? null);
   }
 
   private valueOf(mesh: ReplayMesh): (cell: number) => number {

@@ -9,6 +9,9 @@ const keys: readonly [string, string][] = [
   ['+ −', 'faster, slower'],
   ['T L H B M', 'tags, layer, hull, buffer layer, metric'],
   ['C', 'colour of the cells'],
+  ['I', 'look inside a mesh of hexes'],
+  ['X Y Z', 'cut it across an axis, then from the other side'],
+  ['E', 'its irregular edges'],
   ['F', 'show the whole mesh'],
   ['O', 'open a mesh file'],
   ['?', 'this help'],
@@ -35,7 +38,7 @@ export function makeHelp(version: () => string): HTMLDialogElement {
       { class: 'keys' },
       ...keys.flatMap(([key, what]) => [h('dt', {}, ...key.split(' ').map((k) => h('kbd', {}, k))), h('dd', {}, what)]),
     ),
-    h('p', {}, 'Drag to move, wheel or pinch to zoom, double-click for the whole mesh.'),
+    h('p', {}, 'Drag to move (a mesh of hexes: to turn), wheel or pinch to zoom, double-click for the whole mesh.'),
     about,
     h('form', { method: 'dialog' }, h('button', { class: 'primary', value: 'close' }, 'Close')),
   );

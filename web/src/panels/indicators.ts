@@ -80,7 +80,10 @@ export function makeIndicators(): Indicators {
   const cellCount = fact('Cells', 'Cells of the mesh as it is shown');
   const ideal = fact('Ideal', 'The integral of sqrt(det M) over the domain: how many unit cells would fill it');
   const inRange = fact('Unit edges', 'Share of the edges with a metric length between 0.71 and 1.41');
-  const irregular = fact('Irregular', 'Inner vertices with other than four quads, at the end of the run');
+  const irregular = fact(
+    'Irregular',
+    'Inner vertices with other than 4 quads, or at an irregular edge between hexes, at the end of the run',
+  );
   const lengthTable = makeTable('Metric edge length');
   const shapeTable = makeTable('Shape eta');
   const lengthPlot = makeHistogram({
@@ -107,7 +110,7 @@ export function makeIndicators(): Indicators {
     h('h3', {}, 'Metric edge length ', h('i', {}, 'l'), h('span', { class: 'aim' }, 'aim: 1')),
     lengthPlot.element,
     lengthTable.element,
-    h('h3', {}, 'Shape ', h('i', {}, 'η'), h('span', { class: 'aim' }, 'aim: 1, a unit square in the metric')),
+    h('h3', {}, 'Shape ', h('i', {}, 'η'), h('span', { class: 'aim' }, 'aim: 1, a unit cell in the metric')),
     shapePlot.element,
     shapeTable.element,
     h('p', { class: 'hint' }, 'cv is the standard deviation divided by the mean.'),

@@ -7,6 +7,8 @@ export interface PictureToolActions {
   toggleMark(mark: Mark): void;
   setColouring(colouring: Colouring): void;
   fit(): void;
+  /** Opens the panel of hexahedral meshes. */
+  inside: HTMLElement;
 }
 
 export interface PictureTools {
@@ -68,7 +70,12 @@ export function makePictureTools(actions: PictureToolActions): PictureTools {
   const element = h(
     'div',
     { class: 'picture-tools' },
-    h('div', { class: 'chips', role: 'group', 'aria-label': 'Drawn on the mesh' }, ...marks.map((mark) => chips[mark])),
+    h(
+      'div',
+      { class: 'chips', role: 'group', 'aria-label': 'Drawn on the mesh' },
+      ...marks.map((mark) => chips[mark]),
+      actions.inside,
+    ),
     h(
       'div',
       { class: 'colouring' },

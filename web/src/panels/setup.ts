@@ -1,5 +1,6 @@
 // What to adapt and how: case or mesh, metric, options, run.
 import type { Case } from '../../../wasm/session.ts';
+import { figures, type Figure } from '../data/figures.ts';
 import type { MeshChoice, OptionName, Options } from '../state/settings.ts';
 import { field, h } from '../ui/dom.ts';
 import { icon } from '../ui/icons.ts';
@@ -7,6 +8,7 @@ import { makeFormulaField, type FormulaField } from './formula.ts';
 
 export interface SetupActions {
   chooseCase(name: string): void;
+  chooseFigure(figure: Figure): void;
   chooseGrid(spec: string): void;
   chooseFile(file: File): void;
   changeFormula(text: string): void;
@@ -63,8 +65,8 @@ const optionFields: readonly { name: OptionName; label: string; hint: string; ch
   {
     name: 'augment',
     label: 'Augment',
-    hint: 'Cells added at the ends of each layer.',
-    choices: ['0', '1', '2'].map((value) => ({ value, label: value })),
+    hint: 'Cells added at the ends of each layer: 1 in 2D and none in 3D, if automatic.',
+    choices: ['auto', '0', '1', '2'].map((value) => ({ value, label: value === 'auto' ? 'automatic' : value })),
   },
 ];
 
@@ -121,6 +123,23 @@ export function makeSetup(actions: SetupActions): Setup {
     icon('open'),
     'Open a mesh file',
   );
+  const paper = h(
+    'div',
+    { class: 'figures', role: 'group', 'aria-labelledby': 'figures-title' },
+    h('span', { id: 'figures-title' }, 'The paper’s figures'),
+    ...figures.map((figure) =>
+      h(
+        'button',
+        {
+          type: 'button',
+          class: 'mini',
+          title: `Figure ${figure.number}: ${figure.title}`,
+          onclick: () => actions.chooseFigure(figure),
+        },
+        `Fig. ${figure.number}`,
+      ),
+    ),
+  );
   const summary = h('p', { class: 'hint', id: 'mesh-summary' });
   const controls = Object.fromEntries(
     optionFields.map((spec) => [spec.name, optionControl(spec, actions.changeOption)]),
@@ -136,6 +155,7 @@ export function makeSetup(actions: SetupActions): Setup {
     h('h2', {}, 'Mesh and metric'),
     field('Case', caseSelect),
     summary,
+    paper,
     formula.element,
     h(
       'details',

@@ -20,6 +20,9 @@ export class ReplayMesh {
   cells: Int32Array;
   /** The iteration in which each cell was made, from 1; 0 for the initial ones. */
   birth: Int32Array;
+  /** How often the mesh has changed, and its connectivity: for what is derived and kept. */
+  changes = 0;
+  reconnections = 0;
   private movedVertices: Uint8Array;
   private changedCells: Uint8Array;
 
@@ -107,6 +110,8 @@ export class ReplayMesh {
 
   private write(delta: MeshDelta, points: Float64Array, corners: Int32Array): void {
     const { dim, cornerCount } = this;
+    ++this.changes;
+    if (delta.cells.length > 0) ++this.reconnections;
     for (let i = 0; i < delta.vertices.length; ++i) {
       const v = delta.vertices[i];
       for (let d = 0; d < dim; ++d) this.points[v * dim + d] = points[i * dim + d];

@@ -1,7 +1,9 @@
 // Settings as the fragment of an address and back. Only what differs from the defaults is written.
+import { decodeInside, encodeInside, number } from './inside_link.ts';
 import {
   colourings,
   defaultSettings,
+  lastEvent,
   marks,
   optionDefaults,
   paces,
@@ -10,7 +12,6 @@ import {
   type Settings,
 } from './settings.ts';
 
-const number = (value: number): string => String(Number(value.toPrecision(6)));
 
 function encodeCamera({ target, zoom, direction }: CameraPose): string {
   return [target, [zoom], direction ?? []].map((part) => part.map(number).join(',')).join(';');
@@ -37,8 +38,9 @@ export function encodeSettings(settings: Settings): string {
   if (settings.colouring !== standard.colouring) query.set('colour', settings.colouring);
   const hidden = marks.filter((mark) => !settings.marks[mark]);
   if (hidden.length) query.set('hide', hidden.join(','));
+  for (const [name, value] of Object.entries(encodeInside(settings.inside))) query.set(name, value);
   if (settings.pace !== standard.pace) query.set('pace', settings.pace);
-  if (settings.event !== null) query.set('event', String(settings.event));
+  if (settings.event !== null) query.set('event', settings.event === lastEvent ? 'last' : String(settings.event));
   if (settings.camera) query.set('view', encodeCamera(settings.camera));
   return query.toString();
 }
@@ -59,7 +61,8 @@ export function decodeSettings(fragment: string): Settings {
   for (const mark of (get('hide') ?? '').split(','))
     if (mark in settings.marks) settings.marks[mark as never] = false as never;
   settings.pace = paces.find((p) => p === get('pace')) ?? settings.pace;
-  const event = Number.parseInt(get('event') ?? '', 10);
+  settings.inside = decodeInside(get);
+  const event = get('event') === 'last' ? lastEvent : Number.parseInt(get('event') ?? '', 10);
   if (event >= 0) settings.event = event;
   settings.camera = decodeCamera(get('view') ?? '');
   return settings;

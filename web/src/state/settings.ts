@@ -1,11 +1,12 @@
 // Everything that a visitor can set. One plain value: the permalink is this, written down.
+import { defaultInside, type Inside } from '../inside/look_inside.ts';
 
 /** Where the initial mesh comes from. A file's content is not part of a link: only its name. */
 export type MeshChoice =
   { kind: 'case'; name: string } | { kind: 'grid'; spec: string } | { kind: 'file'; name: string };
 
 /** Options of core/pillowmesh/adapt/options.h under their command-line names, as text. */
-export const optionDefaults = { threshold: '2', smooth: 'end', dice: '1', thickness: '1', augment: '1' } as const;
+export const optionDefaults = { threshold: '2', smooth: 'end', dice: '1', thickness: '1', augment: 'auto' } as const;
 export type OptionName = keyof typeof optionDefaults;
 export type Options = Record<OptionName, string>;
 
@@ -26,6 +27,9 @@ export interface CameraPose {
   direction?: number[];
 }
 
+/** More events than any run has: stands for the last one. */
+export const lastEvent = Number.MAX_SAFE_INTEGER;
+
 export interface Settings {
   mesh: MeshChoice;
   /** Empty: the case's own. */
@@ -33,8 +37,10 @@ export interface Settings {
   options: Options;
   colouring: Colouring;
   marks: Record<Mark, boolean>;
+  /** In 3D: what is cut away and made transparent. */
+  inside: Inside;
   pace: Pace;
-  /** Number of events shown; null: from the start. */
+  /** Number of events shown, `lastEvent` for all; null: from the start. */
   event: number | null;
   /** null: the whole mesh. */
   camera: CameraPose | null;
@@ -47,6 +53,7 @@ export function defaultSettings(): Settings {
     options: { ...optionDefaults },
     colouring: 'plain',
     marks: { tags: true, layer: true, hull: true, buffer: true, ellipses: true },
+    inside: defaultInside(),
     pace: 'auto',
     event: null,
     camera: null,

@@ -12,13 +12,16 @@ import {
   ShaderMaterial,
   SRGBColorSpace,
 } from 'three';
+import type { Facets } from '../inside/facets.ts';
 import type { ReplayMesh } from '../replay/replay_mesh.ts';
-import { surfaceFacets } from './facets.ts';
 import type { Palette } from './palette.ts';
 import { faceFragmentShader, faceVertexShader } from './shaders.ts';
 
 /** How a face is marked; the numbers are known to the shader. */
-export const faceMarks = { none: 0, layer: 1, buffer: 2 } as const;
+export const faceMarks = { none: 0, layer: 1, buffer: 2, cut: 3 } as const;
+
+/** Where a vertex was before the change that is being shown; undefined: where it is. */
+export type Origins = (vertex: number) => ArrayLike<number> | undefined;
 
 const cornersPerFace = 4;
 
@@ -28,6 +31,8 @@ export class FaceLayer {
   count = 0;
   /** The cell of each face; null: face i is cell i. */
   private faceCells: Int32Array | null = null;
+  /** 1 for faces behind which the mesh goes on. */
+  private inner: Uint8Array | null = null;
   private capacity = 0;
   /** 1 for faces that are drawn; the others have all corners at the origin. */
   private drawn = new Uint8Array(0);
@@ -35,17 +40,23 @@ export class FaceLayer {
   private to!: BufferAttribute;
   /** Per corner: value to be coloured (-1: none), mark. */
   private paint!: BufferAttribute;
+  /** In 3D: the normal of each face, the same at its corners, so that a warped one does not show two triangles. */
+  private facing!: BufferAttribute;
   private moving: Int32Array | 'all' = new Int32Array(0);
   private readonly texture = new DataTexture(new Uint8Array(256 * 4), 256, 1, RGBAFormat);
 
-  constructor() {
+  /** `glass`: cells are transparent and hide nothing. */
+  constructor(glass = false) {
     this.texture.minFilter = this.texture.magFilter = LinearFilter;
     this.texture.colorSpace = SRGBColorSpace;
     const material = new ShaderMaterial({
       vertexShader: faceVertexShader,
       fragmentShader: faceFragmentShader,
       side: 2,
+      transparent: glass,
+      depthWrite: !glass,
       uniforms: {
+        glass: { value: glass ? 1 : 0 },
         progress: { value: 1 },
         colours: { value: this.texture },
         coloured: { value: 0 },
@@ -55,6 +66,7 @@ export class FaceLayer {
         lineColour: { value: new Color() },
         layerColour: { value: new Color() },
         bufferColour: { value: new Color() },
+        cutColour: { value: new Color() },
       },
     });
     this.object = new Mesh(new BufferGeometry(), material);
@@ -68,6 +80,7 @@ export class FaceLayer {
     uniforms.lineColour.value.set(palette.line);
     uniforms.layerColour.value.set(palette.layer);
     uniforms.bufferColour.value.set(palette.buffer);
+    uniforms.cutColour.value.set(palette.cut);
   }
 
   /** `colours`: 256 RGBA colours, or null for plain cells. */
@@ -88,20 +101,15 @@ export class FaceLayer {
     this.object.material.uniforms.progress.value = progress;
   }
 
-  /** Takes over what changed in the mesh, or everything. In between, faces go from where they were to where they are. */
-  update(
-    mesh: ReplayMesh,
-    changed: Int32Array | 'all',
-    origins?: (vertex: number) => ArrayLike<number> | undefined,
-  ): void {
+  /**
+   * In 2D: takes over what changed in the mesh, or everything. In between, faces go from where they were to where they
+   * are.
+   */
+  update(mesh: ReplayMesh, changed: Int32Array | 'all', origins?: Origins): void {
     this.settle();
-    if (mesh.dim === 3) {
-      this.replaceSurface(mesh);
-      return;
-    }
     const before = this.count;
     this.count = mesh.cellCount;
-    this.faceCells = null;
+    this.faceCells = this.inner = null;
     this.object.material.uniforms.lit.value = 0;
     if (this.count > this.capacity) {
       this.allocate(Math.ceil(1.5 * this.count));
@@ -118,13 +126,29 @@ export class FaceLayer {
     this.object.geometry.setDrawRange(0, 6 * this.count);
   }
 
+  /** In 3D: these faces instead of what was there; they come from where their vertices were. */
+  replace(mesh: ReplayMesh, facets: Facets, origins?: Origins): void {
+    this.faceCells = facets.cells;
+    this.inner = facets.inner;
+    this.count = facets.cells.length;
+    this.moving = new Int32Array(0);
+    this.object.material.uniforms.lit.value = 1;
+    if (this.count > this.capacity) this.allocate(Math.ceil(1.5 * this.count));
+    for (let face = 0; face < this.count; ++face) {
+      this.writeFace(mesh, face, facets.vertices, 4 * face, false, origins);
+      this.writeFacing(face);
+    }
+    this.upload([this.from, this.to, this.facing], 'all', 12);
+    this.object.geometry.setDrawRange(0, 6 * this.count);
+  }
+
   /** Colour value per cell: 0 to 1, anything else for none. `mark` says how each cell is marked. */
   paintCells(value: (cell: number) => number, mark: Uint8Array): void {
     const array = this.paint.array;
     for (let face = 0; face < this.count; ++face) {
       const cell = this.faceCells ? this.faceCells[face] : face;
       const v = value(cell);
-      const m = mark[cell] ?? 0;
+      const m = mark[cell] || (this.inner?.[face] ? faceMarks.cut : faceMarks.none);
       for (let k = 0, at = 8 * face; k < cornersPerFace; ++k) {
         array[at++] = v >= 0 ? Math.min(v, 1) : -1;
         array[at++] = m;
@@ -145,7 +169,7 @@ export class FaceLayer {
     vertices: Int32Array,
     first: number,
     known: boolean,
-    origins?: (vertex: number) => ArrayLike<number> | undefined,
+    origins?: Origins,
   ): void {
     const { dim, points } = mesh;
     const from = this.from.array;
@@ -165,16 +189,22 @@ export class FaceLayer {
     }
   }
 
-  private replaceSurface(mesh: ReplayMesh): void {
-    const facets = surfaceFacets(mesh);
-    this.faceCells = facets.cells;
-    this.count = facets.cells.length;
-    this.object.material.uniforms.lit.value = 1;
-    if (this.count > this.capacity) this.allocate(Math.ceil(1.5 * this.count));
-    for (let face = 0; face < this.count; ++face) this.writeFace(mesh, face, facets.vertices, 4 * face, false);
-    this.upload([this.from, this.to], 'all', 12);
-    this.moving = new Int32Array(0);
-    this.object.geometry.setDrawRange(0, 6 * this.count);
+  /** The cross product of the diagonals. */
+  private writeFacing(face: number): void {
+    const to = this.to.array;
+    const out = this.facing.array;
+    const at = 12 * face;
+    const [a, b, c] = [to[at + 9] - to[at], to[at + 10] - to[at + 1], to[at + 11] - to[at + 2]];
+    const [p, q, r] = [to[at + 6] - to[at + 3], to[at + 7] - to[at + 4], to[at + 8] - to[at + 5]];
+    const x = b * r - c * q;
+    const y = c * p - a * r;
+    const z = a * q - b * p;
+    const length = Math.sqrt(x * x + y * y + z * z) || 1;
+    for (let i = at; i < at + 12; i += 3) {
+      out[i] = x / length;
+      out[i + 1] = y / length;
+      out[i + 2] = z / length;
+    }
   }
 
   /** Ends the last change: every face is where it is. */
@@ -199,13 +229,13 @@ export class FaceLayer {
   }
 
   private allocate(capacity: number): void {
-    const before = this.capacity > 0 ? [this.from, this.to, this.paint] : [];
-    const attributes = [12, 12, 8].map((size, i) => {
+    const before = this.capacity > 0 ? [this.from, this.to, this.paint, this.facing] : [];
+    const attributes = [12, 12, 8, 12].map((size, i) => {
       const array = new Float32Array(size * capacity);
       if (before[i]) array.set(before[i].array as Float32Array);
       return new BufferAttribute(array, size / cornersPerFace).setUsage(DynamicDrawUsage);
     });
-    [this.from, this.to, this.paint] = attributes as [BufferAttribute, BufferAttribute, BufferAttribute];
+    [this.from, this.to, this.paint, this.facing] = attributes;
     this.capacity = capacity;
     const drawn = new Uint8Array(capacity);
     drawn.set(this.drawn);
@@ -220,6 +250,7 @@ export class FaceLayer {
     geometry.setAttribute('from', this.from);
     geometry.setAttribute('to', this.to);
     geometry.setAttribute('paint', this.paint);
+    geometry.setAttribute('facing', this.facing);
     this.object.geometry = geometry;
   }
 }

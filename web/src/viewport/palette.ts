@@ -3,6 +3,8 @@
 export interface Palette {
   background: string;
   cell: string;
+  /** Of facets inside the mesh that a cut lays open. */
+  cut: string;
   line: string;
   outline: string;
   tag: string;
@@ -10,6 +12,8 @@ export interface Palette {
   hull: string;
   buffer: string;
   ellipse: string;
+  /** Of irregular edges, in the order of irregularKinds. */
+  irregular: readonly [string, string, string];
 }
 
 export function readPalette(element: Element): Palette {
@@ -18,6 +22,7 @@ export function readPalette(element: Element): Palette {
   return {
     background: get('picture'),
     cell: get('cell'),
+    cut: get('cut'),
     line: get('mesh-line'),
     outline: get('outline'),
     tag: get('tag'),
@@ -25,6 +30,7 @@ export function readPalette(element: Element): Palette {
     hull: get('hull'),
     buffer: get('buffer'),
     ellipse: get('ellipse'),
+    irregular: [get('fewer'), get('one-more'), get('many-more')],
   };
 }
 

@@ -16,13 +16,17 @@ export function segmentsOf(mesh: ReplayMesh, edges: Int32Array): Float32Array {
   return out.subarray(0, at);
 }
 
-/** The edges of facets: in 2D a facet is an edge, in 3D a quadrilateral in corner-bit order. */
+/** The edges of facets, each once: in 2D a facet is an edge, in 3D a quadrilateral in corner-bit order. */
 export function facetEdges(dim: number, facets: Int32Array): Int32Array {
   if (dim === 2) return facets;
   const around = [0, 1, 1, 3, 3, 2, 2, 0];
-  const edges = new Int32Array(2 * facets.length);
-  for (let i = 0; i < edges.length; ++i) edges[i] = facets[4 * Math.floor(i / 8) + around[i % 8]];
-  return edges;
+  const edges = new Map<number, [number, number]>();
+  for (let f = 0; f < facets.length; f += 4)
+    for (let k = 0; k < 8; k += 2) {
+      const [a, b] = [facets[f + around[k]], facets[f + around[k + 1]]];
+      edges.set(Math.min(a, b) * 2 ** 26 + Math.max(a, b), [a, b]);
+    }
+  return Int32Array.from([...edges.values()].flat());
 }
 
 /** Edges of a quadrilateral mesh that one cell alone has. */

@@ -10,23 +10,23 @@ export const faceVertexShader = /* glsl */ `
   in vec3 from;
   in vec3 to;
   in vec2 paint;
+  in vec3 facing;
   uniform float progress;
   out vec2 corner;
-  out vec3 viewPosition;
+  flat out vec3 normalSeen;
   flat out vec2 painted;
 
   void main() {
     corner = vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1);
     painted = paint;
-    vec4 position = modelViewMatrix * vec4(mix(from, to, progress), 1.0);
-    viewPosition = position.xyz;
-    gl_Position = projectionMatrix * position;
+    normalSeen = normalMatrix * facing;
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(mix(from, to, progress), 1.0);
   }
 `;
 
 export const faceFragmentShader = /* glsl */ `
   in vec2 corner;
-  in vec3 viewPosition;
+  flat in vec3 normalSeen;
   flat in vec2 painted;
   uniform float progress;
   uniform sampler2D colours;
@@ -37,23 +37,33 @@ export const faceFragmentShader = /* glsl */ `
   uniform vec3 lineColour;
   uniform vec3 layerColour;
   uniform vec3 bufferColour;
+  uniform vec3 cutColour;
+  uniform float glass;
 
   void main() {
+    bool isLayer = painted.y > 0.5 && painted.y < 1.5;
+    bool isBuffer = painted.y > 1.5 && painted.y < 2.5;
+    bool isCut = painted.y > 2.5;
     vec3 colour = cellColour;
     if (coloured > 0.5 && painted.x >= 0.0)
       colour = texture2D(colours, vec2((painted.x * 255.0 + 0.5) / 256.0, 0.5)).rgb;
 
+    else if (isCut)
+      colour = cutColour;
+
     // The layer is tinted, the buffer layer hatched: they differ without colour, too.
-    if (painted.y > 0.5 && painted.y < 1.5) colour = mix(colour, layerColour, 0.42);
-    if (painted.y > 1.5) {
+    if (isLayer) colour = mix(colour, layerColour, 0.42);
+    float hatched = 0.0;
+    if (isBuffer) {
       float stripe = abs(fract((gl_FragCoord.x + gl_FragCoord.y) / (9.0 * lineWidth)) - 0.5) * 9.0 * lineWidth;
       float hatch = 1.0 - smoothstep(1.4 * lineWidth, 1.4 * lineWidth + 1.0, stripe);
-      colour = mix(colour, bufferColour, mix(0.16, 0.72, hatch) * progress);
+      hatched = mix(0.16, 0.72, hatch) * progress;
+      colour = mix(colour, bufferColour, glass > 0.5 ? 1.0 : hatched);
     }
 
     if (lit > 0.5) {
-      vec3 normal = normalize(cross(dFdx(viewPosition), dFdy(viewPosition)));
-      colour *= 0.66 + 0.34 * abs(normal.z) + 0.06 * normal.y;
+      float upwards = normalSeen.z < 0.0 ? -normalSeen.y : normalSeen.y;
+      colour *= 0.66 + 0.34 * abs(normalSeen.z) + 0.06 * upwards;
     }
 
     // Distance in pixels to the four sides; lines fade where cells become as small as the lines.
@@ -66,7 +76,14 @@ export const faceFragmentShader = /* glsl */ `
     float half_ = 0.5 * lineWidth;
     float line = 1.0 - smoothstep(half_ - 0.5, half_ + 0.5, distance);
     line *= mix(0.4, 1.0, smoothstep(1.5, 5.0, size / lineWidth));
-    gl_FragColor = vec4(mix(colour, lineColour, line), 1.0);
+    float alpha = 1.0;
+    if (glass > 0.5) {
+      bool plain = coloured < 0.5 || painted.x < 0.0;
+      alpha = isBuffer ? mix(0.5 * hatched, 0.7 * progress, line) : mix(plain ? 0.05 : 0.16, 0.2, line);
+      if (isBuffer) colour = bufferColour;
+      if (alpha < 0.004) discard;
+    }
+    gl_FragColor = vec4(mix(colour, isBuffer && glass > 0.5 ? bufferColour : lineColour, line), alpha);
     ${output}
   }
 `;
@@ -78,6 +95,7 @@ export const strokeVertexShader = /* glsl */ `
   uniform float width;
   uniform float trim;
   uniform vec2 resolution;
+  uniform float lift;
   out vec2 along; // pixels along the segment from its start, and across
   flat out float pixels;
 
@@ -94,7 +112,7 @@ export const strokeVertexShader = /* glsl */ `
     vec2 at = (far ? q : p) + (far ? reach : -reach) * tangent + position.y * reach * normal;
     along = vec2(far ? pixels + reach : -reach, position.y * reach);
     vec4 base = far ? b : a;
-    gl_Position = vec4(at / (0.5 * resolution) * base.w, base.z, base.w);
+    gl_Position = vec4(at / (0.5 * resolution) * base.w, base.z - lift * base.w, base.w);
   }
 `;
 

@@ -18,11 +18,15 @@ export interface StrokeStyle {
   /** Length of a dash with its gap in CSS pixels; 0: continuous. */
   dash?: number;
   opacity?: number;
+  /** Hidden by what is nearer than this, in normalised depth; undefined: drawn over everything. */
+  lift?: number;
 }
 
 export class Strokes {
   readonly object: Mesh<InstancedBufferGeometry, ShaderMaterial>;
   private readonly style: StrokeStyle;
+  private strength = 1;
+  private ratio = 1;
 
   constructor(style: StrokeStyle, order: number) {
     this.style = style;
@@ -30,12 +34,13 @@ export class Strokes {
       vertexShader: strokeVertexShader,
       fragmentShader: strokeFragmentShader,
       transparent: true,
-      depthTest: false,
+      depthTest: style.lift !== undefined,
       depthWrite: false,
       uniforms: {
         width: { value: style.width },
         trim: { value: style.trim ?? 0 },
         dash: { value: style.dash ?? 0 },
+        lift: { value: style.lift ?? 0 },
         opacity: { value: style.opacity ?? 1 },
         colour: { value: new Color() },
         resolution: { value: new Vector2(1, 1) },
@@ -51,11 +56,19 @@ export class Strokes {
     this.object.material.uniforms.colour.value.set(colour);
   }
 
+  /** Share of the width, and opacity, for strokes that stand back behind others. */
+  setStrength(width: number, opacity: number): void {
+    this.strength = width;
+    this.object.material.uniforms.opacity.value = opacity;
+    this.object.material.uniforms.width.value = this.style.width * this.ratio * width;
+  }
+
   /** Size of the picture in device pixels, and device pixels per CSS pixel. */
   setResolution(width: number, height: number, ratio: number): void {
     const { uniforms } = this.object.material;
     uniforms.resolution.value.set(width, height);
-    uniforms.width.value = this.style.width * ratio;
+    this.ratio = ratio;
+    uniforms.width.value = this.style.width * ratio * this.strength;
     uniforms.dash.value = (this.style.dash ?? 0) * ratio;
   }
 

@@ -1,14 +1,17 @@
 // The picture: a camera over the layers, drawn only when something has changed.
 import { Color, MOUSE, OrthographicCamera, Scene as ThreeScene, TOUCH, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { defaultInside, type Inside } from '../inside/look_inside.ts';
 import type { ReplayMesh } from '../replay/replay_mesh.ts';
 import type { Scene } from '../replay/scene.ts';
 import type { CameraPose, Mark } from '../state/settings.ts';
 import { Ellipses } from './ellipses.ts';
-import { FaceLayer, faceMarks } from './face_layer.ts';
+import { FaceLayer, faceMarks, type Origins } from './face_layer.ts';
+import { HexBody, type InsideReport } from './hex_body.ts';
 import type { Palette } from './palette.ts';
 import { boundaryEdges, facetEdges, segmentsOf } from './segments.ts';
 import { Strokes } from './strokes.ts';
+import { Triad } from './triad.ts';
 
 const margin = 1.08;
 /** Where a 3D mesh is looked at from at first. */
@@ -26,6 +29,8 @@ export class Viewport {
   private readonly camera = new OrthographicCamera();
   private readonly controls: OrbitControls;
   private readonly faces = new FaceLayer();
+  private readonly hexes = new HexBody();
+  private readonly triad = new Triad();
   private readonly outline = new Strokes({ width: 2.2 }, 1);
   private readonly ellipses = new Ellipses(2);
   private readonly tags = new Strokes({ width: 4.2, trim: 0.16 }, 4);
@@ -35,6 +40,8 @@ export class Viewport {
   private readonly observer: ResizeObserver;
   private bounds = { low: [0, 0, 0], high: [1, 1, 1] };
   private dim = 2;
+  private inside: Inside = defaultInside();
+  private origins: Origins | undefined;
   private moved = false;
   private frame = 0;
   private animation: { start: number; duration: number } | null = null;
@@ -45,9 +52,8 @@ export class Viewport {
     this.host = host;
     this.renderer = new WebGLRenderer({ antialias: true, powerPreference: 'low-power' });
     this.canvas = this.renderer.domElement;
-    host.append(this.canvas);
-    for (const layer of [this.faces, this.outline, this.ellipses, this.tags, this.hull, this.layerEdges])
-      this.three.add(layer.object);
+    host.append(this.canvas, this.triad.element);
+    for (const layer of this.layers) this.three.add(layer.object);
 
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.zoomToCursor = true;
@@ -68,9 +74,14 @@ export class Viewport {
     this.observer.observe(host);
   }
 
+  private get layers() {
+    return [this.faces, this.hexes, this.outline, this.ellipses, this.tags, this.hull, this.layerEdges];
+  }
+
   setPalette(palette: Palette): void {
     this.three.background = new Color(palette.background);
     this.faces.setPalette(palette);
+    this.hexes.setPalette(palette);
     this.outline.setColour(palette.outline);
     this.tags.setColour(palette.tag);
     this.layerEdges.setColour(palette.tag);
@@ -84,7 +95,12 @@ export class Viewport {
     this.dim = mesh.dim;
     const { low, high } = mesh.bounds();
     this.bounds = { low: [...low, 0].slice(0, 3), high: [...high, 0].slice(0, 3) };
-    this.faces.update(mesh, 'all');
+    this.origins = undefined;
+    this.triad.element.toggleAttribute('hidden', mesh.dim === 2);
+    if (mesh.dim === 2) {
+      this.hexes.clear();
+      this.faces.update(mesh, 'all');
+    }
     this.outline.setSegments(mesh.dim === 2 ? segmentsOf(mesh, boundaryEdges(mesh)) : new Float32Array(0));
     this.controls.enableRotate = mesh.dim === 3;
     this.controls.mouseButtons = {
@@ -98,30 +114,52 @@ export class Viewport {
     this.requestRender();
   }
 
-  /** Shows the mesh after a change, over so many milliseconds. */
-  showMesh(
-    mesh: ReplayMesh,
-    changed: Int32Array | 'all',
-    milliseconds: number,
-    origins?: (vertex: number) => ArrayLike<number> | undefined,
-  ): void {
-    this.faces.update(mesh, changed, origins);
+  /** Shows the mesh after a change, over so many milliseconds; a hexahedral one with the scene that follows. */
+  showMesh(mesh: ReplayMesh, changed: Int32Array | 'all', milliseconds: number, origins?: Origins): void {
+    this.origins = origins;
+    if (mesh.dim === 2) this.faces.update(mesh, changed, origins);
     this.animation = milliseconds > 0 ? { start: performance.now(), duration: milliseconds } : null;
-    this.faces.setProgress(this.animation ? 0 : 1);
+    this.setProgress(this.animation ? 0 : 1);
     this.requestRender();
   }
 
-  /** Colours and marks of the faces, and the strokes of what stands out. */
-  setScene(mesh: ReplayMesh, scene: Scene, value: (cell: number) => number): void {
+  /**
+   * Colours and marks of the faces, and the strokes of what stands out. In 3D: which faces there are, too; `shapes`,
+   * eta of each cell, is what they are filtered by.
+   */
+  setScene(
+    mesh: ReplayMesh,
+    scene: Scene,
+    value: (cell: number) => number,
+    shapes: Float64Array,
+  ): InsideReport | null {
+    const { inside, shown, origins } = this;
+    const report =
+      mesh.dim === 3 ? this.hexes.rebuild(this.faces, mesh, scene, { inside, shown, shapes, origins }) : null;
     const mark = new Uint8Array(mesh.cellCount);
     if (this.shown.layer) for (const c of scene.layer) mark[c] = faceMarks.layer;
     if (this.shown.buffer) for (const c of scene.buffer) mark[c] = faceMarks.buffer;
     this.faces.paintCells(value, mark);
+    if (report) this.hexes.paintCells(value, mark);
     const none = new Int32Array(0);
+    // Through glass all tags are seen at once: they stand back when there is a layer to look at.
+    const crowded = mesh.dim === 3 && scene.layer.length > 0;
+    this.tags.setStrength(mesh.dim === 2 ? 1 : 0.7, crowded ? 0.35 : 1);
     this.tags.setSegments(segmentsOf(mesh, this.shown.tags ? scene.tags : none));
     this.layerEdges.setSegments(segmentsOf(mesh, this.shown.tags ? scene.layerEdges : none));
     this.hull.setSegments(segmentsOf(mesh, this.shown.hull ? facetEdges(mesh.dim, scene.hull) : none));
     this.requestRender();
+    return report;
+  }
+
+  /** Takes effect with the next scene. */
+  setInside(inside: Inside): void {
+    this.inside = inside;
+  }
+
+  /** From the mesh to the eye. */
+  get direction(): number[] {
+    return this.camera.position.clone().sub(this.controls.target).normalize().toArray();
   }
 
   setMarks(shown: Record<Mark, boolean>): void {
@@ -132,6 +170,7 @@ export class Viewport {
 
   setColours(colours: Uint8Array<ArrayBuffer> | null): void {
     this.faces.setColours(colours);
+    this.hexes.setColours(colours);
     this.requestRender();
   }
 
@@ -184,10 +223,10 @@ export class Viewport {
     cancelAnimationFrame(this.frame);
     this.observer.disconnect();
     this.controls.dispose();
-    for (const layer of [this.faces, this.outline, this.ellipses, this.tags, this.hull, this.layerEdges])
-      layer.dispose();
+    for (const layer of this.layers) layer.dispose();
     this.renderer.dispose();
     this.canvas.remove();
+    this.triad.element.remove();
   }
 
   private poseChanged(): void {
@@ -219,7 +258,8 @@ export class Viewport {
     const height = Math.max(1, this.host.clientHeight);
     const { low, high } = this.bounds;
     const extent = low.map((x, i) => high[i] - x);
-    const [w, h] = this.dim === 2 ? [extent[0], extent[1]] : Array<number>(2).fill(Math.hypot(...extent));
+    // A box is narrower than its diagonal from almost everywhere.
+    const [w, h] = this.dim === 2 ? [extent[0], extent[1]] : Array<number>(2).fill(0.9 * Math.hypot(...extent));
     const half = (margin * Math.max(h, (w * height) / width)) / 2 || 1;
     this.camera.top = half;
     this.camera.bottom = -half;
@@ -234,10 +274,17 @@ export class Viewport {
   private setPixelRatio(ratio: number): void {
     this.renderer.setPixelRatio(ratio);
     const { width, height } = this.canvas;
-    for (const strokes of [this.outline, this.tags, this.hull, this.layerEdges])
+    const { outline, tags, hull, layerEdges, hexes } = this;
+    for (const strokes of [outline, tags, hull, layerEdges, ...hexes.strokes])
       strokes.setResolution(width, height, ratio);
     this.faces.setLineWidth(1.15 * ratio);
+    this.hexes.setLineWidth(1.15 * ratio);
     this.ellipses.setLineWidth(1.3 * ratio);
+  }
+
+  private setProgress(progress: number): void {
+    this.faces.setProgress(progress);
+    this.hexes.setProgress(progress);
   }
 
   private requestRender(): void {
@@ -250,10 +297,11 @@ export class Viewport {
     if (this.animation) {
       const { start, duration } = this.animation;
       const t = Math.min(1, Math.max(0, (now - start) / duration));
-      this.faces.setProgress(t * t * (3 - 2 * t));
+      this.setProgress(t * t * (3 - 2 * t));
       if (t === 1) this.animation = null;
       else this.requestRender();
     }
     this.renderer.render(this.three, this.camera);
+    if (this.dim === 3) this.triad.turn(this.camera);
   }
 }

@@ -1,0 +1,272 @@
+// Looking into hexahedral meshes in a real browser, control by control; and the paper's figures.
+import { mkdirSync } from 'node:fs';
+import { join } from 'node:path';
+import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
+import { buildSite, openBrowser, screenshots, serveSite, type Serving } from './site.ts';
+
+let browser: Browser;
+let site: Serving;
+let page: Page;
+let complaints: string[] = [];
+
+beforeAll(async () => {
+  mkdirSync(screenshots, { recursive: true });
+  await buildSite();
+  [browser, site] = await Promise.all([openBrowser(), serveSite()]);
+});
+afterAll(async () => {
+  await browser?.close();
+  await site?.close();
+});
+afterEach(async () => {
+  await page?.context().close();
+});
+
+const eventually = { timeout: 60_000 };
+
+async function visit(hash: string, options: BrowserContextOptions = {}): Promise<void> {
+  const context = await browser.newContext({
+    viewport: { width: 1280, height: 800 },
+    reducedMotion: 'reduce',
+    ...options,
+  });
+  page = await context.newPage();
+  complaints = [];
+  page.on('pageerror', (error) => complaints.push(error.message));
+  page.on('console', (message) => {
+    if (message.type() === 'error' || message.type() === 'warning') complaints.push(message.text());
+  });
+  await page.goto(site.address + hash);
+  await page.locator('canvas').first().waitFor();
+  await expect.poll(() => page.locator('.facts dd').first().innerText(), eventually).toMatch(/\d/);
+}
+
+const drawn = async (): Promise<string> => (await page.locator('.drawn').textContent()) ?? '';
+const kept = async (): Promise<number> => Number((await drawn()).replace(/,/g, '').split(' ')[0]);
+const slider = (name: string) => page.locator('.inside').getByRole('slider', { name, exact: true });
+const pictureNow = async (): Promise<Buffer> => {
+  await page.waitForTimeout(250);
+  return page.locator('.picture canvas').screenshot();
+};
+const part = (name: string): string | null => new URLSearchParams(new URL(page.url()).hash.slice(1)).get(name);
+const open = () => page.getByRole('button', { name: 'Look inside' }).click();
+
+describe('looking inside', () => {
+  test('is offered for hexes alone', async () => {
+    await visit('#case=iso2d');
+    expect(await page.getByRole('button', { name: 'Look inside' }).isVisible()).toBe(false);
+    await page.locator('#case').selectOption('linear3d');
+    await page.getByRole('button', { name: 'Look inside' }).waitFor();
+    expect(await page.locator('.inside').isVisible()).toBe(false);
+    await open();
+    expect(await page.locator('.inside').isVisible()).toBe(true);
+    expect(await drawn()).toBe('64 of 64 hexes');
+    await page.locator('#case').selectOption('iso2d');
+    await expect.poll(() => page.locator('.inside').isVisible(), eventually).toBe(false);
+    expect(complaints).toEqual([]);
+  });
+
+  test('a plane cuts whole cells away, across each axis, from either side, where its slider says', async () => {
+    await visit('#case=sphere3d'); // 5 x 5 x 5 cubes: the middle ones' centres lie in a plane at 50 %
+    await open();
+    const before = await pictureNow();
+    await page.getByLabel('Plane').check();
+    await expect.poll(drawn).toBe('75 of 125 hexes');
+    expect((await pictureNow()).equals(before)).toBe(false);
+    for (const [axis, angles] of [['x', '0,0'], ['y', '-90,0'], ['z', '0,90']] as const) {
+      await page.getByRole('button', { name: `: cut across ${axis}` }).click();
+      await expect.poll(() => part('cut')).toContain(`plane:${angles},`);
+      await slider('Position').fill('0.25');
+      await expect.poll(drawn).toBe('25 of 125 hexes');
+      await page.getByRole('button', { name: 'Flip' }).click();
+      await expect.poll(drawn).toBe('100 of 125 hexes');
+      await page.getByRole('button', { name: 'Flip' }).click();
+      await slider('Position').fill('1');
+      await expect.poll(drawn).toBe('125 of 125 hexes');
+      await slider('Position').fill('0');
+      await expect.poll(drawn).toBe('0 of 125 hexes');
+    }
+    expect(complaints).toEqual([]);
+  });
+
+  test('the plane can have any direction, that of the view, too', async () => {
+    await visit('#case=sphere3d');
+    await page.keyboard.press('x');
+    await expect.poll(() => part('cut')).toBe('plane:0,0,0.5');
+    await slider('Turn').fill('45');
+    await slider('Tilt').fill('-30');
+    await expect.poll(() => part('cut')).toBe('plane:45,-30,0.5');
+    const tilted = await kept();
+    expect(tilted).toBeGreaterThan(45);
+    expect(tilted).toBeLessThan(80);
+    await page.getByRole('button', { name: ': cut across the view' }).click();
+    await expect.poll(() => part('cut')).toMatch(/^plane:-53,25,/); // where a mesh is looked at from at first
+  });
+
+  test('a slab keeps what lies between two planes', async () => {
+    await visit('#case=sphere3d');
+    await open();
+    await page.getByLabel('Slab').check();
+    await slider('Position').fill('0.6');
+    await slider('Thickness').fill('0.2');
+    await expect.poll(drawn).toBe('25 of 125 hexes');
+    await slider('Thickness').fill('0.6');
+    await expect.poll(drawn).toBe('75 of 125 hexes');
+  });
+
+  test('layers are peeled off from the boundary, as many as there are', async () => {
+    await visit('#case=sphere3d');
+    await open();
+    expect(await slider('Peel').getAttribute('max')).toBe('2');
+    await slider('Peel').focus();
+    await page.keyboard.press('ArrowRight');
+    await expect.poll(drawn).toBe('27 of 125 hexes');
+    await page.keyboard.press('ArrowRight');
+    await expect.poll(drawn).toBe('1 of 125 hexes');
+    expect(await page.locator('.counter').innerText()).toBe(''); // the arrow keys were the slider's alone
+  });
+
+  test('cells are hidden above and below a quality', async () => {
+    await visit('#case=linear3d');
+    await open();
+    await slider('From').fill('0.9');
+    await expect.poll(kept).toBeLessThan(64);
+    const good = await kept();
+    await slider('From').fill('0');
+    await slider('To').fill('0.9');
+    await expect.poll(kept).toBe(64 - good);
+    await page.getByLabel('Hide cells by').selectOption('jacobian');
+    await expect.poll(drawn).toBe('0 of 64 hexes'); // cubes: every scaled Jacobian is 1
+    await slider('To').fill('1');
+    await slider('From').fill('0.99');
+    await expect.poll(drawn).toBe('64 of 64 hexes');
+    await expect.poll(() => part('quality')).toBe('jacobian:0.99,1');
+  });
+
+  test('irregular edges are counted and drawn', async () => {
+    await visit('#case=linear3d&event=last');
+    await expect.poll(() => page.locator('.status').innerText(), eventually).toMatch(/ in [\d.]+ s/);
+    await open();
+    const before = await pictureNow();
+    await page.getByLabel('Irregular edges').check();
+    const counts = async (): Promise<number[]> =>
+      (await page.locator('.valences b').allInnerTexts()).map((text) => Number(text.replace(/,/g, '')));
+    await expect.poll(async () => Math.min(...(await counts()))).toBeGreaterThan(0);
+    expect((await pictureNow()).equals(before)).toBe(false);
+    await page.locator('h1').click();
+    await page.keyboard.press('Home'); // the initial grid has none
+    await expect.poll(counts).toEqual([0, 0, 0]);
+  });
+
+  test('cells become glass around a layer, always or never', async () => {
+    await visit('#case=linear3d&event=2');
+    await expect.poll(() => page.locator('.badge').innerText(), eventually).toBe('Layer');
+    await open();
+    const auto = await pictureNow();
+    await page.getByLabel('Solid', { exact: true }).check();
+    const solid = await pictureNow();
+    expect(solid.equals(auto)).toBe(false);
+    await page.getByLabel('Glass').check();
+    expect((await pictureNow()).equals(auto)).toBe(true);
+    await page.locator('h1').click();
+    await page.keyboard.press('Home');
+    await expect.poll(() => page.locator('.badge').innerText()).toBe('Start');
+    const glass = await pictureNow();
+    await page.getByLabel('Auto', { exact: true }).check();
+    expect((await pictureNow()).equals(glass)).toBe(false);
+  });
+
+  test('a link restores all of it, and one button undoes it', async () => {
+    const hash =
+      '#case=sphere3d&cut=slab:30,20,0.6,0.3&peel=1&quality=jacobian:0.5,1&cells=solid&edges=irregular&colour=shape';
+    await visit(hash);
+    await expect.poll(kept).toBeLessThan(27);
+    expect(await page.locator('.inside').isVisible()).toBe(true);
+    expect(await page.getByLabel('Slab').isChecked()).toBe(true);
+    const values = await Promise.all(
+      ['Position', 'Thickness', 'Turn', 'Tilt', 'Peel', 'From'].map((name) => slider(name).inputValue()),
+    );
+    expect(values).toEqual(['0.6', '0.3', '30', '20', '1', '0.5']);
+    expect(await page.getByLabel('Irregular edges').isChecked()).toBe(true);
+    for (const name of ['cut', 'peel', 'quality', 'cells', 'edges'])
+      expect(part(name)).toBe(new URLSearchParams(hash.slice(1)).get(name));
+    await page.getByRole('button', { name: 'Show all' }).click();
+    await expect.poll(drawn).toBe('125 of 125 hexes');
+    await expect.poll(() => part('cut')).toBe(null);
+  });
+
+  test('a link with nonsense in it shows everything', async () => {
+    await visit('#case=sphere3d&cut=plane:abc,0,9&peel=-4&quality=eta:2,3&cells=wood');
+    await expect.poll(drawn).toBe('125 of 125 hexes');
+  });
+
+  test('what is hidden can change 20 000 hexes at the pace of a slider, and turning them computes nothing', async () => {
+    await visit('#mesh=grid:27,27,28:0,1,0,1,0,1&metric=h %3D 0.5&cut=plane:20,30,0.5');
+    await expect.poll(drawn, eventually).toMatch(/of 20,412 hexes/);
+    for (let i = 0; i < 12; ++i) {
+      await slider('Position').fill(String(0.3 + 0.05 * i));
+      await page.waitForTimeout(30);
+    }
+    const times = await page.evaluate(() =>
+      performance.getEntriesByName('pillowmesh: facets').map((entry) => entry.duration),
+    );
+    console.log(`20 412 hexes: facets rebuilt in ${times.map((t) => t.toFixed(1)).join(', ')} ms`);
+    expect(times.length).toBeGreaterThan(10);
+    const box = (await page.locator('.picture').boundingBox())!;
+    await page.mouse.move(box.x + 100, box.y + 200);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 240, box.y + 260, { steps: 6 });
+    await page.mouse.up();
+    await expect.poll(() => part('view'), eventually).not.toBe(null);
+    const after = await page.evaluate(() => performance.getEntriesByName('pillowmesh: facets').length);
+    expect(after).toBe(times.length);
+  });
+});
+
+describe('the paper’s figures', () => {
+  for (const [number, name, cells] of [
+    ['5', 'iso2d', 'quads'],
+    ['6', 'aniso2d', 'quads'],
+    ['7', 'circle2d', 'quads'],
+    ['9', 'linear3d', 'hexes'],
+    ['10', 'sphere3d-paper', 'hexes'],
+  ] as const)
+    test(`figure ${number} is one click away`, async () => {
+      await visit('');
+      await page.getByRole('button', { name: `Fig. ${number}`, exact: true }).click();
+      await expect
+        .poll(() => page.locator('.status').innerText(), { timeout: 100_000 })
+        .toMatch(new RegExp(`^[\\d,]+ ${cells} in [\\d.]+ s`));
+      await expect.poll(() => page.locator('.counter').innerText()).toMatch(/^(\d+) \/ \1$/);
+      expect(await page.locator('#case').inputValue()).toBe(name);
+      const [some, all] = (await drawn()).replace(/,/g, '').match(/\d+/g)?.map(Number) ?? [0, 0];
+      if (cells === 'hexes') expect(some).toBeLessThan(all);
+      await page.waitForTimeout(600);
+      await page.screenshot({ path: join(screenshots, `figure-${number}.png`) });
+      expect(complaints).toEqual([]);
+    });
+});
+
+describe('on every screen', () => {
+  const screens = [
+    { name: 'inside-laptop', width: 1280, height: 800, colorScheme: 'light' },
+    { name: 'inside-dark', width: 1440, height: 900, colorScheme: 'dark' },
+    { name: 'inside-tablet', width: 834, height: 1000, colorScheme: 'light' },
+    { name: 'inside-phone', width: 360, height: 740, colorScheme: 'dark' },
+    { name: 'inside-phone-small', width: 320, height: 600, colorScheme: 'light' },
+  ] as const;
+  for (const { name, width, height, colorScheme } of screens)
+    test(`${name}: nothing is wider than the window, the picture keeps its room`, async () => {
+      await visit('#case=linear3d&cut=slab:-90,0,0.6,0.5&edges=irregular&colour=shape&event=last', {
+        viewport: { width, height },
+        colorScheme,
+      });
+      await expect.poll(() => page.locator('.status').innerText(), eventually).toMatch(/ in [\d.]+ s/);
+      await page.waitForTimeout(500);
+      expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
+      const picture = (await page.locator('.picture').boundingBox())!;
+      expect(Math.min(picture.width, picture.height)).toBeGreaterThan(220);
+      await page.screenshot({ path: join(screenshots, `${name}.png`), fullPage: width < 760 });
+    });
+});

@@ -1,0 +1,113 @@
+// What a visitor has set to look inside a hexahedral mesh, and which cells that leaves.
+import type { ReplayMesh } from '../replay/replay_mesh.ts';
+
+export const cutKinds = ['off', 'plane', 'slab'] as const;
+export type CutKind = (typeof cutKinds)[number];
+
+/** Whole cells are cut away: those whose centre lies beyond a plane or, for a slab, outside two planes. */
+export interface Cut {
+  kind: CutKind;
+  /** Direction towards which cells are cut away, in degrees: turn about z from the x axis, tilt out of the xy plane. */
+  turn: number;
+  tilt: number;
+  /** Where the plane is, as a share of the mesh's extent in that direction. */
+  position: number;
+  /** Of the slab, as a share likewise. */
+  thickness: number;
+}
+
+export const qualityMeasures = ['eta', 'jacobian'] as const;
+export type QualityMeasure = (typeof qualityMeasures)[number];
+
+export const bodies = ['auto', 'solid', 'glass'] as const;
+/** How cells are drawn; auto: as glass while tags or a layer stand out inside. */
+export type Body = (typeof bodies)[number];
+
+export interface Inside {
+  cut: Cut;
+  /** Layers of cells taken off from the boundary. */
+  peel: number;
+  /** Only cells with low <= measure <= high are kept. */
+  quality: { measure: QualityMeasure; low: number; high: number };
+  body: Body;
+  irregular: boolean;
+}
+
+export function defaultInside(): Inside {
+  return {
+    cut: { kind: 'off', turn: 0, tilt: 0, position: 0.5, thickness: 0.2 },
+    peel: 0,
+    quality: { measure: 'eta', low: 0, high: 1 },
+    body: 'auto',
+    irregular: false,
+  };
+}
+
+/** Whether cells are hidden or drawn in another way than at first. */
+export function looksInside({ cut, peel, quality, body, irregular }: Inside): boolean {
+  return (
+    cut.kind !== 'off' || peel > 0 || quality.low > 0 || quality.high < 1 || body !== 'auto' || irregular
+  );
+}
+
+const degree = Math.PI / 180;
+
+/** Unit vector of a turn and a tilt. */
+export function directionOf({ turn, tilt }: { turn: number; tilt: number }): [number, number, number] {
+  const flat = Math.cos(tilt * degree);
+  return [flat * Math.cos(turn * degree), flat * Math.sin(turn * degree), Math.sin(tilt * degree)];
+}
+
+/** Turn and tilt of a direction in whole degrees. */
+export function anglesOf([x, y, z]: readonly number[]): { turn: number; tilt: number } {
+  const tilt = Math.round(Math.atan2(z, Math.hypot(x, y)) / degree);
+  const turn = Math.abs(tilt) === 90 ? 0 : Math.round(Math.atan2(y, x) / degree);
+  return { turn: turn === -180 ? 180 : turn, tilt };
+}
+
+/** 1 for each cell that is left. `depths` as of cellDepths; a cell whose quality is not known is kept. */
+export function keptCells(
+  mesh: ReplayMesh,
+  { cut, peel, quality }: Inside,
+  depths: () => Int32Array,
+  measures: (measure: QualityMeasure) => Float64Array,
+): Uint8Array {
+  const { cells, cellCount, points } = mesh;
+  const kept = new Uint8Array(cellCount);
+  for (let c = 0; c < cellCount; ++c) kept[c] = cells[8 * c] >= 0 ? 1 : 0;
+  if (cut.kind !== 'off') {
+    const along = projections(mesh, directionOf(cut));
+    const height = new Float64Array(cellCount);
+    for (let c = 0; c < cellCount; ++c)
+      if (kept[c]) for (let k = 0; k < 8; ++k) height[c] += along.heights[cells[8 * c + k]] / 8;
+    const size = along.high - along.low;
+    const slack = 1e-9 * size; // rows of cells whose centres lie in the plane stay or go together
+    const top = along.low + cut.position * size + slack;
+    const bottom = cut.kind === 'slab' ? top - cut.thickness * size - 2 * slack : -Infinity;
+    for (let c = 0; c < cellCount; ++c) if (height[c] > top || height[c] < bottom) kept[c] = 0;
+  }
+  if (peel > 0) {
+    const depth = depths();
+    for (let c = 0; c < cellCount; ++c) if (depth[c] < peel) kept[c] = 0;
+  }
+  if (quality.low > 0 || quality.high < 1) {
+    const values = measures(quality.measure);
+    // At its end a bound holds nothing back: cells worse than 0 and better than 1 exist.
+    const low = quality.low > 0 ? quality.low : -Infinity;
+    const high = quality.high < 1 ? quality.high : Infinity;
+    for (let c = 0; c < cellCount; ++c) if (values[c] < low || values[c] > high) kept[c] = 0;
+  }
+  return kept;
+
+  function projections({ vertexCount }: ReplayMesh, [x, y, z]: [number, number, number]) {
+    const heights = new Float64Array(vertexCount);
+    let low = Infinity;
+    let high = -Infinity;
+    for (let v = 0; v < vertexCount; ++v) {
+      const h = (heights[v] = x * points[3 * v] + y * points[3 * v + 1] + z * points[3 * v + 2]);
+      if (h < low) low = h;
+      if (h > high) high = h;
+    }
+    return { heights, low, high };
+  }
+}
