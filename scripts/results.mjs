@@ -1,0 +1,60 @@
+// Runs the command on the paper's two-dimensional cases and rewrites the tables of docs/results.md.
+//   node scripts/results.mjs [BINARY]      default: build/release/bin/pillowmesh
+import { spawnSync } from 'node:child_process';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { Failure, isMain, main, root } from './run.mjs';
+
+/** The published rows: cells, then edges and min, mean, max, cv of l, then min, mean, max, cv of eta. */
+const published = {
+  iso2d: [['initial', 63, '142 1.000 4.205 20.0 1.042', '.179 .642 1.04 .398'],
+    ['paper', 2182, '4427 .321 .919 1.88 .303', '.271 .782 .98 .247']],
+  aniso2d: [['initial', 63, '142 1.275 3.875 11.7 .703', '.229 .730 1.00 .280'],
+    ['paper', 660, '1372 1.181 1.197 1.21 .012', '.953 .993 1.00 .007']],
+  circle2d: [['initial', 100, '220 .447 2.126 10.3 1.246', '.103 .689 .94 .375'],
+    ['paper: refine, then smooth', 3316, '6660 .295 .663 1.39 .292', '.215 .645 .97 .269'],
+    ['paper: coarse, then dice', 4672, '9400 .139 .529 1.32 .474', '.205 .743 .98 .156'],
+    ['paper: smooth between', 2460, '4968 .199 .775 2.05 .307', '.139 .672 .98 .260']],
+};
+const grids = { iso2d: 'grid:7,9:0,7,0,9', aniso2d: 'grid:7,9:0,7,0,9', circle2d: 'grid:10,10:-1,1,-1,1' };
+const variants = ['', '--smooth none', '--smooth between', '--dice 3', '--thickness 2', '--thickness 2 --smooth none',
+  '--thickness 2 --augment 0'];
+
+/** The report of a run of the command. Status 1 (a limit not met) is a result too, and is shown. */
+function report(binary, args) {
+  const { status, stdout, stderr } = spawnSync(binary, [...args, '--report', '-'], { encoding: 'utf8', cwd: root });
+  if (status !== 0 && status !== 1) throw new Failure(`${binary} ${args.join(' ')}: ${stderr}`);
+  return { ...JSON.parse(stdout), met: status === 0 };
+}
+
+const digits = (value) => (value === null ? '-' : value.toFixed(3));
+const four = (s) => [s.min, s.mean, s.max, s.cv].map(digits).join(' ');
+
+function row(name, r) {
+  const note = r.met ? '' : ' (limit not met)';
+  const iterations = r.operations.iterations ?? '';
+  return `| ${name}${note} | ${r.mesh.cells} | ${r.mesh.edges} ${four(r.edge_length)} | ${four(r.shape)} | ${iterations} |`;
+}
+
+function table(binary, name) {
+  const lines = [`### ${name}`, '', '| run | cells | l: edges, min, mean, max, cv | eta: min, mean, max, cv | iterations |',
+    '|---|---|---|---|---|'];
+  for (const [what, cells, l, eta] of published[name]) lines.push(`| *${what}* | ${cells} | ${l} | ${eta} | |`);
+  lines.push(row(`\`measure ${grids[name]} --case ${name}\``, report(binary, ['measure', grids[name], '--case', name])));
+  for (const v of variants) {
+    const args = ['adapt', '--case', name, ...v.split(' ').filter(Boolean)];
+    lines.push(row(`\`${args.join(' ')}\``, report(binary, args)));
+  }
+  return lines.join('\n');
+}
+
+if (isMain(import.meta))
+  await main(() => {
+    const binary = process.argv[2] ?? join(root, 'build/release/bin/pillowmesh');
+    if (!existsSync(binary)) throw new Failure(`${binary} is not there: node scripts/build.mjs release`);
+    const page = join(root, 'docs/results.md');
+    const [start, end] = ['<!-- tables: scripts/results.mjs -->', '<!-- end of tables -->'];
+    const text = readFileSync(page, 'utf8');
+    const tables = Object.keys(published).map((name) => table(binary, name)).join('\n\n');
+    writeFileSync(page, `${text.slice(0, text.indexOf(start) + start.length)}\n${tables}\n${text.slice(text.indexOf(end))}`);
+  });
