@@ -8,7 +8,7 @@
 
 #include "../catch.h"
 #include "io_meshes.h"
-#include "pillowmesh/io/number.h"
+#include "pillowmesh/mesh/number.h"
 #include "pillowmesh/mesh/validate.h"
 
 using namespace pillowmesh;

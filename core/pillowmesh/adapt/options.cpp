@@ -1,7 +1,8 @@
 #include "pillowmesh/adapt/options.h"
 
-#include <cstdlib>
 #include <string>
+
+#include "pillowmesh/mesh/number.h"
 
 namespace pillowmesh {
 namespace {
@@ -9,23 +10,19 @@ namespace {
 /// Reads a whole number between two bounds, both allowed.
 template <class T>
 Status read_whole(std::string_view name, std::string_view value, long long low, long long high, T& out) {
-  const std::string text(value);
-  char* stop = nullptr;
-  const long long number = std::strtoll(text.c_str(), &stop, 10);
-  if (text.empty() || *stop != '\0' || number < low || number > high)
+  std::int64_t number = 0;
+  if (!parse_integer(value, number) || number < low || number > high)
     return Status::usage("--" + std::string(name) + " takes a whole number from " + std::to_string(low) + " to " +
-                         std::to_string(high) + ", not '" + text + "'");
+                         std::to_string(high) + ", not '" + std::string(value) + "'");
   out = static_cast<T>(number);
   return {};
 }
 
 Status read_real(std::string_view name, std::string_view value, double above, double most, const char* range,
                  double& out) {
-  const std::string text(value);
-  char* stop = nullptr;
-  const double number = std::strtod(text.c_str(), &stop);
-  if (text.empty() || *stop != '\0' || !(number > above) || !(number <= most))
-    return Status::usage("--" + std::string(name) + " takes a number " + range + ", not '" + text + "'");
+  double number = 0.0;
+  if (!parse_double(value, number) || !(number > above) || !(number <= most))
+    return Status::usage("--" + std::string(name) + " takes a number " + range + ", not '" + std::string(value) + "'");
   out = number;
   return {};
 }

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
+
+#include "pillowmesh/mesh/number.h"
 
 namespace pillowmesh {
 namespace {
@@ -91,7 +94,7 @@ Status check_planar(const FileMesh& file, std::string_view name) {
   // Coordinates that were rotated or printed with few digits stray from their plane by rounding.
   if (high[2] - low[2] <= 1e-9 * width) return {};
   return Status::bad_input(place(name, 0) + "the quads do not lie in a plane z = constant (z runs from " +
-                           std::to_string(low[2]) + " to " + std::to_string(high[2]) +
+                           rounded_text(low[2], 6) + " to " + rounded_text(high[2], 6) +
                            "); curved surface meshes are not supported");
 }
 
@@ -120,8 +123,8 @@ struct Groups {
 std::vector<Index> sort_and_map(std::vector<Group>& groups) {
   std::vector<Index> order(groups.size()), renumbered(groups.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(i);
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
-    return groups[a].tag != groups[b].tag ? groups[a].tag < groups[b].tag : groups[a].name < groups[b].name;
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+    return std::tie(groups[a].tag, groups[a].name, a) < std::tie(groups[b].tag, groups[b].name, b);
   });
   std::vector<Group> sorted;
   for (std::size_t i = 0; i < order.size(); ++i) {

@@ -180,7 +180,7 @@ class GmshReader {
         const std::int64_t bounding = in_.count<std::int64_t>("bounding entities", 1);
         for (std::int64_t k = 0; k < bounding && !in_.failed(); ++k) in_.integer("a bounding entity");
       }
-    for (auto& p : physical_) std::stable_sort(p.begin(), p.end(), [](auto& a, auto& b) { return a.first < b.first; });
+    for (auto& p : physical_) std::sort(p.begin(), p.end());
   }
   [[nodiscard]] Index physical_of(int dim, Index entity) const {
     const auto& p = physical_[dim];

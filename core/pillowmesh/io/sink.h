@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "pillowmesh/io/number.h"
+#include "pillowmesh/mesh/number.h"
 
 namespace pillowmesh {
 

@@ -1,6 +1,6 @@
 #include "pillowmesh/io/source.h"
 
-#include "pillowmesh/io/number.h"
+#include "pillowmesh/mesh/number.h"
 
 namespace pillowmesh {
 namespace {

@@ -1,7 +1,7 @@
 #include <bit>
 #include <string>
 
-#include "pillowmesh/io/number.h"
+#include "pillowmesh/mesh/number.h"
 #include "pillowmesh/io/vtk.h"
 
 namespace pillowmesh {

@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "pillowmesh/io/codec.h"
-#include "pillowmesh/io/number.h"
+#include "pillowmesh/mesh/number.h"
 #include "pillowmesh/io/vtk.h"
 #include "pillowmesh/io/xml.h"
 

@@ -46,15 +46,16 @@ template <int Dim>
 Surface<Dim> collect_surface(const Mesh<Dim>& mesh, const MeshInput<Dim>& input) {
   struct Named {
     FacetCorners<Dim> key;
-    Index group;
+    std::size_t place;  // in the input: of a facet given twice, the first counts
   };
   std::vector<Named> named;
-  for (const auto& f : input.facets) {
-    Named n{f.vertices, f.group};
+  for (std::size_t i = 0; i < input.facets.size(); ++i) {
+    Named n{input.facets[i].vertices, i};
     std::sort(n.key.begin(), n.key.end());
     named.push_back(n);
   }
-  std::stable_sort(named.begin(), named.end(), [](const Named& a, const Named& b) { return a.key < b.key; });
+  std::sort(named.begin(), named.end(),
+            [](const Named& a, const Named& b) { return a.key != b.key ? a.key < b.key : a.place < b.place; });
 
   Surface<Dim> surface;
   for (CellId c = 0; c < mesh.cell_count(); ++c)
@@ -69,7 +70,7 @@ Surface<Dim> collect_surface(const Mesh<Dim>& mesh, const MeshInput<Dim>& input)
       std::sort(key.begin(), key.end());
       const auto at =
           std::lower_bound(named.begin(), named.end(), key, [](const Named& a, const auto& k) { return a.key < k; });
-      surface.group.push_back(at != named.end() && at->key == key ? at->group : kNone);
+      surface.group.push_back(at != named.end() && at->key == key ? input.facets[at->place].group : kNone);
       for (int s = 0; s < Geometry<Dim>::facet_sides; ++s) surface.sides.push_back({side_key<Dim>(v, s), i, s});
     }
   std::sort(surface.sides.begin(), surface.sides.end(), [](const Side<Dim>& a, const Side<Dim>& b) {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include "pillowmesh/mesh/mesh.h"
+#include "pillowmesh/mesh/number.h"
 
 namespace pillowmesh::detail {
 
@@ -20,11 +20,7 @@ std::string cell_name(CellId c) {
 template <int Dim>
 std::string place(const Point<Dim>& p) {
   std::string text = "(";
-  for (int d = 0; d < Dim; ++d) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%.6g", p[d]);
-    text += (d ? ", " : "") + std::string(number);
-  }
+  for (int d = 0; d < Dim; ++d) text += (d ? ", " : "") + rounded_text(p[d], 6);
   return text + ")";
 }
 

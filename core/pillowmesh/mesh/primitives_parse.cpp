@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "pillowmesh/mesh/number.h"
 #include "pillowmesh/mesh/primitives.h"
 #include "pillowmesh/mesh/sections.h"
 
@@ -43,10 +43,8 @@ Expected<std::vector<double>> parse_numbers(const Form& form, const std::string&
   while (at <= text.size()) {
     const std::size_t end = std::min(text.find(',', at), text.size());
     const std::string part = text.substr(at, end - at);
-    char* stop = nullptr;
-    const double value = std::strtod(part.c_str(), &stop);
-    if (part.empty() || *stop != '\0' || !(value - value == 0.0))
-      return mistake(form, "'" + part + "' is not a number");
+    double value = 0.0;
+    if (!parse_double(part, value) || !(value - value == 0.0)) return mistake(form, "'" + part + "' is not a number");
     numbers.push_back(value);
     at = end + 1;
   }

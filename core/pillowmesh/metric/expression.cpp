@@ -4,7 +4,7 @@
 #include <numbers>
 #include <optional>
 
-#include "pillowmesh/metric/number.h"
+#include "pillowmesh/mesh/number.h"
 
 namespace pillowmesh {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pillowmesh/metric/expression.h"
-#include "pillowmesh/metric/number.h"
+#include "pillowmesh/mesh/number.h"
 
 namespace pillowmesh {
 namespace {
@@ -140,7 +140,7 @@ bool positive_definite(const SymTensor<Dim>& M) {
 std::string list_numbers(std::span<const double> values) {
   std::string text;
   for (const double v : values) {
-    text += (text.empty() ? "" : ", ") + (std::isfinite(v) ? write_number(v)
+    text += (text.empty() ? "" : ", ") + (std::isfinite(v) ? number_text(v)
                                           : std::isnan(v)  ? "not a number"
                                                            : "infinite");
   }

@@ -1,6 +1,7 @@
+#include <cmath>
 #include <string_view>
 
-#include "pillowmesh/metric/number.h"
+#include "pillowmesh/mesh/number.h"
 #include "pillowmesh/quality/report.h"
 
 namespace pillowmesh {
@@ -23,7 +24,7 @@ class JsonWriter {
   }
   void number(std::string_view key, double value) {
     begin(key);
-    text_ += write_number(value);
+    text_ += std::isfinite(value) ? number_text(value) : "null";
   }
   void integer(std::string_view key, std::int64_t value) {
     begin(key);
