@@ -1,11 +1,11 @@
 // The anisotropic smoother: vertices move, one at a time, to lower the barrier energy (energy.h). [Paper] sections 4, 6.
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
-#include "pillowmesh/metric/field.h"
-#include "pillowmesh/smooth/energy.h"
-#include "pillowmesh/mesh/topology.h"
+#include "pillowmesh/smooth/hex_star.h"
+#include "pillowmesh/smooth/quad_star.h"
 
 namespace pillowmesh {
 
@@ -46,52 +46,14 @@ class Relocator {
   double relocate(VertexId v);
 
  private:
-  /// An edge at the vertex being moved.
-  struct Spoke {
-    VertexId end;
-    double length;  ///< integrated
-    double here;    ///< length in the metric at the moving vertex
-    double middle;  ///< length in the metric in its middle
-    double there;   ///< length in the metric at its other end
-    bool varies;    ///< these differ a lot
-  };
-  /// A corner at the vertex being moved.
-  struct Corner {
-    std::array<std::int8_t, Dim> spoke;  ///< position in spokes_ of each edge
-    std::int8_t sign;
-  };
-  /// A corner at the far end of a spoke; only its edge to the vertex moves.
-  struct FarCorner {
-    VertexId origin;
-    std::array<VertexId, Dim> ends;
-    std::int8_t sign, end, spoke;
-    HeldCorner<Dim> held;
-  };
-  struct Candidate {
-    Point<Dim> position;
-    CornerMetric<Dim> metric;
-  };
+  using Star = std::conditional_t<Dim == 2, QuadStar, HexStar>;
 
-  void collect(VertexId v);
-  int spoke_to(VertexId w);
-  void evaluate(const Point<Dim>& position, Candidate& at);
-  void hold_far_corners();
-  [[nodiscard]] double energy_at(const Candidate& at) const;
-  [[nodiscard]] Derivatives<Dim> derivatives_at(const Candidate& at) const;
-  [[nodiscard]] double lowest_scaled_jacobian() const;
   bool newton_step(VertexId v, const Derivatives<Dim>& d, Point<Dim>& step) const;
 
   Mesh<Dim>& mesh_;
-  MetricField<Dim> field_;  ///< scaled to the target length
   RelocateOptions options_;
-  std::vector<CornerMetric<Dim>> metric_;  ///< per vertex
-  std::vector<std::uint8_t> active_;       ///< per vertex: may gain
-  std::vector<CellCorner> star_;
-  std::vector<Corner> corners_;
-  std::vector<FarCorner> far_corners_;
-  std::vector<Spoke> spokes_;
-  std::vector<Point<Dim>> sample_points_;
-  std::vector<SymTensor<Dim>> samples_;
+  Star star_;
+  std::vector<std::uint8_t> active_;  ///< per vertex: may gain
   double last_decrease_ = 0.0, last_energy_ = 0.0;
 };
 
