@@ -23,6 +23,13 @@ inline Vector times(const std::array<double, 6>& m, const Vector& a) {
           m[3] * a[0] + m[4] * a[1] + m[5] * a[2]};
 }
 
+/// Derivatives of mean_length(a, b) by a and b.
+inline std::array<double, 2> mean_length_slopes(double a, double b) {
+  const double s = 1.0 / (a + b), r = (a - b) * s, i = 1.0 / (15 - 4 * r * r);
+  const double half = 0.5 * (15 - 9 * r * r) * i, change = -150 * r * s * i * i;
+  return {half + change * b, half - change * a};
+}
+
 /// Finds w in `spokes` from `first` on, or appends it. \return its position relative to `first`
 std::int16_t position_of(std::vector<VertexId>& spokes, std::size_t first, VertexId w) {
   const auto found = std::find(spokes.begin() + static_cast<std::ptrdiff_t>(first), spokes.end(), w);
@@ -139,16 +146,17 @@ void HexStar::look_at(const Point<3>& position) {
     sample_points_.push_back(0.5 * (position + end));
   }
   sample_points_.push_back(position);
-  samples_.resize(sample_points_.size());
-  field_.evaluate(sample_points_, samples_);
-  here_ = vertex_metric(samples_[count]);
+  middle_.resize(sample_points_.size());
+  field_.evaluate(sample_points_, middle_);
+  here_ = vertex_metric(middle_[count]);
   sample_points_.clear();
   for (int k = 0; k < count; ++k) {
     Spoke& s = spokes_[k];
     s.near_m = times(here_.M.m, s.u);
     s.far_m = times(metric_[spoke_vertices_[k]].M.m, s.u);
     s.here = std::sqrt(dot(s.u, s.near_m));
-    s.middle = std::sqrt(dot(s.u, times(samples_[k].m, s.u)));
+    s.middle_m = times(middle_[k].m, s.u);
+    s.middle = std::sqrt(dot(s.u, s.middle_m));
     s.there = std::sqrt(dot(s.u, s.far_m));
     s.length = 0.5 * (mean_length(s.here, s.middle) + mean_length(s.middle, s.there));
     const double low = std::min(s.middle, std::min(s.here, s.there)), high = std::max(s.middle, std::max(s.here, s.there));
@@ -164,10 +172,12 @@ void HexStar::look_at(const Point<3>& position) {
   const SymTensor<3>* quarter = samples_.data();
   for (Spoke& s : spokes_) {
     if (s.varies) {
-      const double a = std::sqrt(dot(s.u, times(quarter[0].m, s.u))), b = std::sqrt(dot(s.u, times(quarter[1].m, s.u)));
-      quarter += 2;
-      s.length = 0.25 * (mean_length(s.here, a) + mean_length(a, s.middle) + mean_length(s.middle, b) +
-                         mean_length(b, s.there));
+      for (int side = 0; side < 2; ++side) {
+        s.quarter_m[side] = times((quarter++)->m, s.u);
+        s.quarter[side] = std::sqrt(dot(s.u, s.quarter_m[side]));
+      }
+      s.length = 0.25 * (mean_length(s.here, s.quarter[0]) + mean_length(s.quarter[0], s.middle) +
+                         mean_length(s.middle, s.quarter[1]) + mean_length(s.quarter[1], s.there));
     }
     const double near = s.length / s.here, far = -s.length / s.there;
     s.near = times(near, s.u);
@@ -243,7 +253,7 @@ Derivatives<3> HexStar::derivatives() {
   }
   const double q = here_.root / 6.0, w = here_.root * (size_weight - 1.0), inverse = here_.inverse;
   const double* volume = products_.data() + facets_.size();
-  facet_sums_.assign(facets_.size(), 0.0);
+  facet_sums_.assign(facets_.size(), {});
   double of_metric = 0.0;
   for (const StarCorner& corner : corners_) {
     const std::array<Spoke*, 3> s{&spokes_[corner.spoke[0]], &spokes_[corner.spoke[1]], &spokes_[corner.spoke[2]]};
@@ -274,7 +284,11 @@ Derivatives<3> HexStar::derivatives() {
       s[j]->sum.length += q * ((2.0 * g[j] + T) * d + (N - 2.0 * minor[j]) * i) + w * d;
       const double change = g[k] * b[j] * b[j] + g[j] * b[k] * b[k] - 2.0 * cross_term[j] * b[j] * b[k];
       of_metric += 2.0 * (q * d * b[j] * b[j] + qi * inverse * change);
-      facet_sums_[corner.outer[j][0] / 2] += 2.0 * inverse * qi;
+      auto& facet = facet_sums_[corner.outer[j][0] / 2];
+      facet[0] += 2.0 * inverse * qi;
+      // E = v (T / 6 + N / 6 v^2 + w - 1) with v^2 = det G, of which the derivative by a product is twice the minor.
+      const double of_d2 = 2.0 * inverse * (cross_term[k] * cross_term[l] - g[l] * cross_term[j]);
+      facet[1] += (q * (T - N * i * i) + w) * of_d2 * 0.5 * i - 2.0 * q * i * inverse * cross_term[j];
     }
     add(gradient, q * T - qi * i * N + w, dd);
     hessian.add_product(y, dd);
@@ -283,25 +297,86 @@ Derivatives<3> HexStar::derivatives() {
     const Spoke& s = spokes_[k];
     const double slope = s.length / s.there, squared = slope * slope;
     add(gradient, slope, s.sum.far);
+    add(gradient, s.sum.near, s.near_m);
     hessian.add(squared * s.sum.metric, metric_[spoke_vertices_[k]].M.m);
     hessian.add(squared, s.sum.rest.m);
-    // What the change of the metric adds to the lengths' gradients.
-    const double by_far = dot(s.sum.far, s.far) / s.length, by_near = s.sum.length / s.length;
-    add(gradient, s.sum.near - by_far / s.length + by_near * (1.0 / s.here - 1.0 / s.length), s.near_m);
-    add(gradient, -by_far / s.there, s.far_m);
   }
   hessian.add(of_metric, here_.M.m);
   for (std::size_t k = 0; k < facets_.size(); ++k) {
     const Spoke &a = spokes_[facets_[k].a], &b = spokes_[facets_[k].b];
     Vector difference = times(b.length / b.here, a.near_m);
     add(difference, -a.length / a.here, b.near_m);
-    hessian.add_square(-facet_sums_[k], difference);
+    hessian.add_square(-facet_sums_[k][0], difference);
   }
+  add_change_of_metric(gradient);
   for (int i = 0; i < 3; ++i) {
     out.gradient[i] = gradient[i];
     for (int j = 0; j < 3; ++j) out.hessian(i, j) = hessian.m[SymTensor<3>::at(i, j)];
   }
   return out;
+}
+
+/// What the metric's change from place to place adds: through the ratio of each edge's integrated length to that in the
+/// metric at its end, and through the angles at the vertex. The derivative of the metric, D, enters as D : S with one
+/// symmetric matrix S, and comes from the linear function that fits the metrics in the middles of the edges best.
+void HexStar::add_change_of_metric(Vector& gradient) {
+  Symmetric S;
+  for (std::size_t k = 0; k < facets_.size(); ++k) {
+    Spoke &a = spokes_[facets_[k].a], &b = spokes_[facets_[k].b];
+    const double by_product = facet_sums_[k][1], half = 0.5 * by_product * products_[k];
+    S.add_product(times(0.5 * by_product, a.near), b.near);
+    a.sum.angle -= half;
+    b.sum.angle -= half;
+  }
+  std::array<double, 6> moments{};  // of the edges, in units of the metric
+  for (std::size_t k = 0; k < spokes_.size(); ++k) {
+    const Spoke& s = spokes_[k];
+    const double by_far = dot(s.sum.far, s.far) / s.length, by_near = s.sum.length / s.length, by_length = by_far + by_near;
+    // The gradients above have the ratios fixed: take out their lengths' part, add that of the integrated length.
+    const double near = s.length / s.here;
+    add(gradient, by_near / s.here, s.near_m);
+    add(gradient, -by_far / s.there, s.far_m);
+    (void)near;
+    const auto sample = [&](double weight, double length, double moves, const Vector& m) {
+      add(gradient, -by_length * weight / length, m);
+      return 0.5 * moves * weight / length;
+    };
+    const Vector here_m = times(s.here / s.length, s.near_m), there_m = times(-s.there / s.length, s.far_m);
+    double of_metric = 0.0;
+    if (s.varies) {
+      const auto w0 = mean_length_slopes(s.here, s.quarter[0]), w1 = mean_length_slopes(s.quarter[0], s.middle),
+                 w2 = mean_length_slopes(s.middle, s.quarter[1]), w3 = mean_length_slopes(s.quarter[1], s.there);
+      of_metric += sample(0.25 * w0[0], s.here, 1.0, here_m);
+      of_metric += sample(0.25 * (w0[1] + w1[0]), s.quarter[0], 0.75, s.quarter_m[0]);
+      of_metric += sample(0.25 * (w1[1] + w2[0]), s.middle, 0.5, s.middle_m);
+      of_metric += sample(0.25 * (w2[1] + w3[0]), s.quarter[1], 0.25, s.quarter_m[1]);
+      sample(0.25 * w3[1], s.there, 0.0, there_m);
+    } else {
+      const auto w0 = mean_length_slopes(s.here, s.middle), w1 = mean_length_slopes(s.middle, s.there);
+      of_metric += sample(0.5 * w0[0], s.here, 1.0, here_m);
+      of_metric += sample(0.5 * (w0[1] + w1[0]), s.middle, 0.5, s.middle_m);
+      sample(0.5 * w1[1], s.there, 0.0, there_m);
+    }
+    S.add_square(by_length * of_metric, s.u);
+    S.add_square(s.sum.angle / (s.length * s.length), s.near);
+    const double weight = 1.0 / (s.here * s.here);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j <= i; ++j) moments[SymTensor<3>::at(j, i)] += weight * s.u[i] * s.u[j];
+  }
+  Vector sum{};
+  for (std::size_t k = 0; k < spokes_.size(); ++k) {
+    const Spoke& s = spokes_[k];
+    std::array<double, 6> change;
+    for (int i = 0; i < 6; ++i) change[i] = middle_[k].m[i] - here_.M.m[i];
+    const double along = change[0] * S.m[0] + change[2] * S.m[2] + change[5] * S.m[5] +
+                         2.0 * (change[1] * S.m[1] + change[3] * S.m[3] + change[4] * S.m[4]);
+    add(sum, 2.0 * along / (s.here * s.here), s.u);  // the middle is half the edge away
+  }
+  const auto& [a, b, c, d, e, f] = moments;
+  const std::array<double, 6> cofactor{c * f - e * e, d * e - b * f, a * f - d * d, b * e - c * d, b * d - a * e, a * c - b * b};
+  const double determinant = a * cofactor[0] + b * cofactor[1] + d * cofactor[3];
+  if (!(determinant > 0)) return;
+  add(gradient, 1.0 / determinant, times(cofactor, sum));
 }
 
 bool HexStar::below(double floor) const {

@@ -68,9 +68,9 @@ class HexStar {
   void look_at(const Point<3>& position);
   /// Energy of all corners whose edges depend on the vertex; infinite where one is degenerate or inside out.
   [[nodiscard]] double energy();
-  /// The same with its gradient and Hessian: exact for lengths and angles with the metric held fixed, except that the
-  /// gradient of a length is that of its integral. By the first variation it depends on the metric at the moving end
-  /// alone, d l / d x = -M e / |e|_M.
+  /// The same with its gradient and Hessian. The gradient includes what the change of the metric from place to place does
+  /// to lengths and angles, as far as the metrics found in the middles of the edges tell. The Hessian is that of the
+  /// metric held fixed.
   [[nodiscard]] Derivatives<3> derivatives();
   /// True if some scaled Jacobian is below `floor` at the place for which energy() was asked last.
   [[nodiscard]] bool below(double floor) const;
@@ -132,14 +132,18 @@ class HexStar {
     double metric = 0.0;  ///< this times the metric there
     double near = 0.0;    ///< gradient of the near corners: this times near_m
     double length = 0.0;  ///< derivative of the near corners by the logarithm of the length
+    double angle = 0.0;   ///< what the near corners' angles change by the squared length in the metric here
   };
 
   /// An edge at the vertex, and what its length was found to be.
   struct Spoke {
-    Vector u;               ///< from the vertex
-    double length;          ///< integrated
+    Vector u;                    ///< from the vertex
+    double length;               ///< integrated
     double here, middle, there;  ///< lengths in the metric at the vertex, in the middle, at the other end
-    bool varies;            ///< these differ a lot
+    bool varies;                 ///< these differ a lot: then also at the quarters
+    std::array<double, 2> quarter;
+    std::array<Vector, 2> quarter_m;  ///< the metric there times u; in the middle:
+    Vector middle_m;
     double near2, far2;     ///< squared Euclidean lengths of near and far
     Vector near, near_m;    ///< u scaled to the length as seen from here, and M times it
     Vector far, far_m;      ///< -u scaled to the length as seen from there, and the metric there times it
@@ -160,6 +164,7 @@ class HexStar {
   };
 
   void hold();
+  void add_change_of_metric(Vector& gradient);
 
   const Mesh<3>& mesh_;
   MetricField<3> field_;
@@ -174,9 +179,10 @@ class HexStar {
   std::vector<OuterEdge> outer_;
   std::vector<FarCorner> far_;
   std::vector<double> products_;    ///< e_a M e_b of each facet, then d of each corner
-  std::vector<double> facet_sums_;  ///< factor of each facet's part of the Hessian
+  /// Of each facet: the factor of its part of the Hessian, and the derivative by its product.
+  std::vector<std::array<double, 2>> facet_sums_;
   std::vector<Point<3>> sample_points_;
-  std::vector<SymTensor<3>> samples_;
+  std::vector<SymTensor<3>> samples_, middle_;
 };
 
 }  // namespace pillowmesh
