@@ -141,3 +141,25 @@ TEST_CASE("smoothing never inverts, keeps corners, and keeps the boundary on its
     smooth(mesh, field<3>("h = 0.3 + 0.4 * abs(x - 0.3)"), 20);
   }
 }
+
+TEST_CASE("one vertex of huge energy does not stop the smoothing of the others") {
+  auto mesh = corpus::shaken(make_grid<2>({8, 8}, Point<2>(0, 0), Point<2>(8, 8)), 1.0, 0.3, 5);
+  // The corner of the domain is put beside the vertex across its cell: cells there are as bad as can be.
+  VertexId first = kNone, second = kNone;
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.points[v] == Point<2>(0, 0)) first = v;
+    if (mesh.support[v].dim == 2 && (mesh.points[v] - Point<2>(1, 1)).norm() < 0.5) second = v;
+  }
+  REQUIRE(first != kNone);
+  REQUIRE(second != kNone);
+  mesh.points[first] = mesh.points[second] - Point<2>(1e-9, 1e-9);
+  Relocator<2> relocator(mesh, field<2>("h = 1"));
+  int sweeps = 0;
+  while (sweeps < 200 && !relocator.sweep().converged) ++sweeps;
+  CHECK(sweeps > 5);
+  double worst = 0.0;
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v)
+    if (mesh.points[v][0] > 4.5 && mesh.points[v][1] > 4.5)
+      for (int d = 0; d < 2; ++d) worst = std::max(worst, std::abs(mesh.points[v][d] - std::round(mesh.points[v][d])));
+  CHECK(worst < 0.1);
+}

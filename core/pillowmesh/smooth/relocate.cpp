@@ -179,10 +179,12 @@ double Relocator<Dim>::relocate(VertexId v) {
 template <int Dim>
 SweepResult Relocator<Dim>::sweep() {
   SweepResult result;
+  visited_.clear();
   for (VertexId v = 0; v < mesh_.vertex_count(); ++v) {
     if (!active_[v]) continue;
     active_[v] = 0;
     const double moved = relocate(v);
+    visited_.push_back({last_energy_, last_decrease_});
     result.energy += last_energy_;
     if (moved == 0.0) continue;
     ++result.moved;
@@ -190,8 +192,24 @@ SweepResult Relocator<Dim>::sweep() {
     if (moved < options_.rest) continue;
     star_.for_each_dependent([&](VertexId w) { active_[w] = mesh_.support[w].dim > 0; });
   }
-  result.converged = result.moved == 0 || result.decrease <= options_.converged * result.energy;
+  result.converged = result.moved == 0 || little_gained();
   return result;
+}
+
+/// A vertex counts with no more than some times the energy that is usual: a single huge one says nothing about the others.
+template <int Dim>
+bool Relocator<Dim>::little_gained() {
+  constexpr double unusual = 32.0;
+  const auto middle = visited_.begin() + static_cast<std::ptrdiff_t>(visited_.size() / 2);
+  std::nth_element(visited_.begin(), middle, visited_.end());
+  const double most = unusual * (*middle)[0];
+  double energy = 0.0, decrease = 0.0;
+  for (const auto& [e, gained] : visited_) {
+    energy += std::min(e, most);
+    decrease += std::min(gained, most);
+  }
+  const double share = options_.converged > 0 ? options_.converged : (Dim == 2 ? 3e-6 : 3e-5);
+  return decrease <= share * energy;
 }
 
 template class Relocator<2>;
