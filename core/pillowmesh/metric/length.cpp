@@ -71,43 +71,58 @@ double rule13(const double* f, const double* g) {
   return sum;
 }
 
-// Fills lanes with sample points of pieces and evaluates |dP/dt| in the metric there.
+// Samples |dP/dt| in the metric at some nodes of several pieces at once.
 template <int Dim>
 class Sampler {
  public:
   explicit Sampler(const MetricField<Dim>& field) : field_(field) {}
 
-  void add(const Edge<Dim>& edge, const Piece& piece, const double* nodes, int count) {
-    for (int i = 0; i < count; ++i) {
-      const double t = piece.middle + piece.half * nodes[i];
-      for (int d = 0; d < Dim; ++d) {
-        points_[d][used_ + i] = edge.origin[d] + t * edge.vector[d];
-        vectors_[d][used_ + i] = edge.vector[d];
-      }
+  /// \pre the pieces added since the last evaluation, times the nodes that come, fit in kLanes.
+  void add(const Edge<Dim>& edge, const Piece& piece) {
+    for (int d = 0; d < Dim; ++d) {
+      origin_[d][used_] = edge.origin[d];
+      vector_[d][used_] = edge.vector[d];
     }
-    used_ += count;
+    middle_[used_] = piece.middle;
+    half_[used_++] = piece.half;
   }
 
-  const double* evaluate() {
-    field_.evaluate(points_, used_, tensors_);
-    const auto& m = tensors_;
-    const auto& v = vectors_;
-    for (int i = 0; i < used_; ++i) {
-      double square = m[0][i] * v[0][i] * v[0][i] + 2.0 * m[1][i] * v[0][i] * v[1][i] + m[2][i] * v[1][i] * v[1][i];
-      if constexpr (Dim == 3) {
-        square += 2.0 * v[2][i] * (m[3][i] * v[0][i] + m[4][i] * v[1][i]) + m[5][i] * v[2][i] * v[2][i];
+  /// At node i of the k-th of n pieces: result[i * n + k]. One piece beside the other, so that the loops vectorise.
+  const double* evaluate(const double* nodes, int count) {
+    const int n = used_;
+    for (int i = 0; i < count; ++i) {
+      for (int d = 0; d < Dim; ++d) {
+        double* points = points_[d].data() + i * n;
+        for (int k = 0; k < n; ++k) points[k] = origin_[d][k] + (middle_[k] + half_[k] * nodes[i]) * vector_[d][k];
       }
-      // Rounding may leave a tiny negative number; what is not a number stays so.
-      speed_[i] = std::sqrt(square < 0.0 ? 0.0 : square);
+    }
+    field_.evaluate(points_, n * count, tensors_);
+    const auto& v = vector_;
+    for (int i = 0; i < count; ++i) {
+      const auto m = [&](int entry) { return tensors_[entry].data() + i * n; };
+      double* speed = speed_.data() + i * n;
+      for (int k = 0; k < n; ++k) {
+        double square =
+            m(0)[k] * v[0][k] * v[0][k] + 2.0 * m(1)[k] * v[0][k] * v[1][k] + m(2)[k] * v[1][k] * v[1][k];
+        if constexpr (Dim == 3) {
+          square += 2.0 * v[2][k] * (m(3)[k] * v[0][k] + m(4)[k] * v[1][k]) + m(5)[k] * v[2][k] * v[2][k];
+        }
+        // Rounding may leave a tiny negative number; what is not a number stays so.
+        speed[k] = std::sqrt(square < 0.0 ? 0.0 : square);
+      }
     }
     used_ = 0;
     return speed_.data();
   }
 
  private:
+  static constexpr int kMost = 10;  // pieces
+  using Each = std::array<double, kMost>;
+
   const MetricField<Dim>& field_;
+  std::array<Each, Dim> origin_, vector_;
+  Each middle_, half_;
   PointLanes<Dim> points_;
-  PointLanes<Dim> vectors_;
   TensorLanes<Dim> tensors_;
   Lanes speed_;
   int used_ = 0;
@@ -144,14 +159,14 @@ class Integrator {
     constexpr std::size_t kBatch = kLanes / 7;
     for (std::size_t start = 0; start < pieces_.size(); start += kBatch) {
       const std::size_t end = std::min(pieces_.size(), start + kBatch);
-      for (std::size_t i = start; i < end; ++i) sampler_.add(edge_[pieces_[i].edge], pieces_[i], kFirst, 7);
-      const double* f = sampler_.evaluate();
-      for (std::size_t i = start; i < end; ++i, f += 7) {
+      for (std::size_t i = start; i < end; ++i) sampler_.add(edge_[pieces_[i].edge], pieces_[i]);
+      const double* f = sampler_.evaluate(kFirst, 7);
+      for (std::size_t i = start; i < end; ++i, ++f) {
         Sampled& s = sampled_[i];
         s.piece = pieces_[i];
-        std::copy(f, f + 7, s.first);
-        s.value = s.piece.half * rule7(f);
-        s.error = std::fabs(s.value - s.piece.half * rule4(f));
+        for (std::size_t k = 0; k < 7; ++k) s.first[k] = f[k * (end - start)];
+        s.value = s.piece.half * rule7(s.first);
+        s.error = std::fabs(s.value - s.piece.half * rule4(s.first));
       }
     }
   }
@@ -197,11 +212,13 @@ class Integrator {
     for (std::size_t start = 0; start < doubtful; start += kBatch) {
       const std::size_t end = std::min(doubtful, start + kBatch);
       for (std::size_t i = start; i < end; ++i) {
-        sampler_.add(edge_[sampled_[i].piece.edge], sampled_[i].piece, kMore, 6);
+        sampler_.add(edge_[sampled_[i].piece.edge], sampled_[i].piece);
       }
-      const double* g = sampler_.evaluate();
-      for (std::size_t i = start; i < end; ++i, g += 6) {
+      const double* found = sampler_.evaluate(kMore, 6);
+      for (std::size_t i = start; i < end; ++i, ++found) {
         const Sampled& s = sampled_[i];
+        double g[6];
+        for (std::size_t k = 0; k < 6; ++k) g[k] = found[k * (end - start)];
         const double value = s.piece.half * rule13(s.first, g);
         if (!last && std::fabs(value - s.value) > allowed_[s.piece.edge]) {
           const double half = 0.5 * s.piece.half;
@@ -233,9 +250,10 @@ double edge_length(const MetricField<Dim>& field, const Point<Dim>& a, const Poi
     // One piece that converges, the usual case, without the machinery: the same sums as Integrator's.
     Sampler<Dim> sampler(field);
     const Piece whole{0, 0.5, 0.5};
-    sampler.add(edge, whole, kFirst, 7);
-    sampler.add(edge, whole, kMore, 6);
-    const double* f = sampler.evaluate();
+    double nodes[13];
+    std::copy(kMore, kMore + 6, std::copy(kFirst, kFirst + 7, nodes));
+    sampler.add(edge, whole);
+    const double* f = sampler.evaluate(nodes, 13);
     const double value7 = whole.half * rule7(f);
     const double allowed = options.tolerance * value7;
     if (!(std::fabs(value7 - whole.half * rule4(f)) > allowed)) return value7;

@@ -14,9 +14,12 @@ namespace pillowmesh {
 template <int Dim>
 using CornerPoints = std::array<Point<Dim>, Cell<Dim>::corners>;
 
+template <int Dim>
+using SimplexPoints = std::array<Point<Dim>, Dim + 1>;
+
 /// The simplex p0, p1, ... as a collapsed cell (Duffy's transformation).
 template <int Dim>
-CornerPoints<Dim> collapsed_simplex(const std::array<Point<Dim>, Dim + 1>& p);
+CornerPoints<Dim> collapsed_simplex(const SimplexPoints<Dim>& p);
 
 struct VolumeOptions {
   /// Relative error aimed at.
@@ -36,6 +39,11 @@ struct VolumeOptions {
 template <int Dim>
 void metric_volumes(const MetricField<Dim>& field, std::span<const CornerPoints<Dim>> cells, std::span<double> volumes,
                     const VolumeOptions& options = {});
+
+/// The same of simplices, to rounding what metric_volumes makes of them collapsed, in a fraction of the time.
+template <int Dim>
+void simplex_volumes(const MetricField<Dim>& field, std::span<const SimplexPoints<Dim>> simplices,
+                     std::span<double> volumes, const VolumeOptions& options = {});
 
 /// Metric volume of the mesh: the number of cells of an ideal one.
 template <int Dim>

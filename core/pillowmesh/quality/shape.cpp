@@ -26,12 +26,39 @@ struct CornerSimplex {
   }
 };
 
+// The pairs of corners that are an edge of some corner simplex, each once, and the place of each simplex edge among them.
+template <int Dim>
+struct SimplexPairs {
+  static constexpr int count = Dim == 2 ? 6 : 24;  // edges, and diagonals of quadrilaterals
+  std::array<std::array<int, 2>, count> pair{};
+  std::array<std::array<int, CornerSimplex<Dim>::edges>, Cell<Dim>::corners> place{};
+
+  constexpr SimplexPairs() {
+    int found = 0;
+    for (int k = 0; k < Cell<Dim>::corners; ++k) {
+      for (int i = 0; i < CornerSimplex<Dim>::edges; ++i) {
+        const std::array<int, 2> e = CornerSimplex<Dim>::edge(k, i);
+        const int low = e[0] < e[1] ? e[0] : e[1];
+        const int high = e[0] < e[1] ? e[1] : e[0];
+        int at = 0;
+        while (at < found && (pair[at][0] != low || pair[at][1] != high)) ++at;
+        if (at == found) {
+          pair[found][0] = low;
+          pair[found++][1] = high;
+        }
+        place[k][i] = at;
+      }
+    }
+  }
+};
+
 // Metric lengths of all edges of all corner simplices of a chunk of cells. Neighbouring cells and corners share most
 // of them: each is integrated once.
 template <int Dim>
 class SimplexEdges {
  public:
-  static constexpr int kPerCell = Cell<Dim>::corners * CornerSimplex<Dim>::edges;
+  static constexpr SimplexPairs<Dim> kPairs{};
+  static constexpr int kPerCell = SimplexPairs<Dim>::count;
 
   void measure(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
                const LengthOptions& options) {
@@ -58,15 +85,13 @@ class SimplexEdges {
   /// Of simplex k of the i-th cell.
   [[nodiscard]] SimplexLengths<Dim> simplex(std::size_t i, int k) const {
     SimplexLengths<Dim> l;
-    std::copy_n(lengths_.begin() + static_cast<std::ptrdiff_t>(i * kPerCell + k * CornerSimplex<Dim>::edges), l.size(),
-                l.begin());
+    for (std::size_t e = 0; e < l.size(); ++e) l[e] = lengths_[i * kPerCell + kPairs.place[k][e]];
     return l;
   }
 
  private:
   static std::uint64_t key(const Corners<Dim>& corners, int j) {
-    const std::array<int, 2> e = CornerSimplex<Dim>::edge(j / CornerSimplex<Dim>::edges, j % CornerSimplex<Dim>::edges);
-    const auto [low, high] = std::minmax(corners[e[0]], corners[e[1]]);
+    const auto [low, high] = std::minmax(corners[kPairs.pair[j][0]], corners[kPairs.pair[j][1]]);
     return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high);
   }
 
@@ -98,12 +123,12 @@ double flat_volume(const SimplexLengths<3>& l) {
 }
 
 template <int Dim>
-CornerPoints<Dim> corner_simplex(const Mesh<Dim>& mesh, CellId c, int k) {
+SimplexPoints<Dim> corner_simplex(const Mesh<Dim>& mesh, CellId c, int k) {
   const auto point = [&](int corner) { return mesh.points[mesh.cells[c][corner]]; };
-  std::array<Point<Dim>, Dim + 1> p{point(k)};
+  SimplexPoints<Dim> p{point(k)};
   for (int d = 0; d < Dim; ++d) p[1 + d] = point(k ^ (1 << d));
   if (Cell<Dim>::corner_sign(k) < 0) std::swap(p[1], p[2]);
-  return collapsed_simplex<Dim>(p);
+  return p;
 }
 
 template <int Dim>
@@ -137,7 +162,7 @@ void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span
   constexpr int kCorners = Cell<Dim>::corners;
   const VolumeOptions volume_options = VolumeOptions::for_panel(Dim, options.panel, Dim == 2 ? 1e-3 : 5e-3);
   SimplexEdges<Dim> edges;
-  std::vector<CornerPoints<Dim>> simplices;
+  std::vector<SimplexPoints<Dim>> simplices;
   std::vector<double> volumes;
   for (std::size_t start = 0; start < cells.size(); start += kChunk) {
     const std::span<const CellId> chunk = cells.subspan(start, std::min(kChunk, cells.size() - start));
@@ -148,7 +173,7 @@ void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span
         for (int k = 0; k < kCorners; ++k) simplices.push_back(corner_simplex(mesh, c, k));
       }
       volumes.resize(simplices.size());
-      metric_volumes<Dim>(field, simplices, volumes, volume_options);
+      simplex_volumes<Dim>(field, simplices, volumes, volume_options);
     }
     for (std::size_t i = 0; i < chunk.size(); ++i) {
       std::array<double, kCorners> eta;
