@@ -153,35 +153,33 @@ class Integrator {
     edge_[edges_++] = edge;
   }
 
-  /// The 7-point rule on every piece: estimates of the lengths and of their errors.
-  void sample() {
-    sampled_.resize(pieces_.size());
-    constexpr std::size_t kBatch = kLanes / 7;
+  /// Estimates of the lengths and of their errors by the 7-point rule on every piece.
+  void estimate() {
+    for (int e = 0; e < edges_; ++e) length_[e] = error_[e] = 0.0;
     for (std::size_t start = 0; start < pieces_.size(); start += kBatch) {
       const std::size_t end = std::min(pieces_.size(), start + kBatch);
       for (std::size_t i = start; i < end; ++i) sampler_.add(edge_[pieces_[i].edge], pieces_[i]);
       const double* f = sampler_.evaluate(kFirst, 7);
-      for (std::size_t i = start; i < end; ++i, ++f) {
-        Sampled& s = sampled_[i];
-        s.piece = pieces_[i];
-        for (std::size_t k = 0; k < 7; ++k) s.first[k] = f[k * (end - start)];
-        s.value = s.piece.half * rule7(s.first);
-        s.error = std::fabs(s.value - s.piece.half * rule4(s.first));
+      const std::size_t n = end - start;
+      double rule[2][kBatch];
+      for (std::size_t k = 0; k < n; ++k) {
+        const double g[7] = {f[k], f[n + k], f[2 * n + k], f[3 * n + k], f[4 * n + k], f[5 * n + k], f[6 * n + k]};
+        rule[0][k] = rule7(g);
+        rule[1][k] = rule4(g);
+      }
+      for (std::size_t k = 0; k < n; ++k) {
+        const Piece& piece = pieces_[start + k];
+        const double value = piece.half * rule[0][k];
+        length_[piece.edge] += value;
+        error_[piece.edge] += std::fabs(value - piece.half * rule[1][k]);
       }
     }
   }
 
-  void estimate() {
-    sample();
-    for (int e = 0; e < edges_; ++e) length_[e] = error_[e] = 0.0;
-    for (const Sampled& s : sampled_) {
-      length_[s.piece.edge] += s.value;
-      error_[s.piece.edge] += s.error;
-    }
-  }
-
   void integrate() {
-    estimate();
+    sample();
+    for (int e = 0; e < edges_; ++e) length_[e] = 0.0;
+    for (const Sampled& s : sampled_) length_[s.piece.edge] += s.value;
     for (int e = 0; e < edges_; ++e) {
       allowed_[e] = options_.tolerance * length_[e];
       length_[e] = 0.0;
@@ -197,6 +195,25 @@ class Integrator {
   [[nodiscard]] double error(int e) const { return 2.0 * error_[e]; }
 
  private:
+  static constexpr std::size_t kBatch = kLanes / 7;
+
+  // The 7-point rule on every piece.
+  void sample() {
+    sampled_.resize(pieces_.size());
+    for (std::size_t start = 0; start < pieces_.size(); start += kBatch) {
+      const std::size_t end = std::min(pieces_.size(), start + kBatch);
+      for (std::size_t i = start; i < end; ++i) sampler_.add(edge_[pieces_[i].edge], pieces_[i]);
+      const double* f = sampler_.evaluate(kFirst, 7);
+      for (std::size_t i = start; i < end; ++i, ++f) {
+        Sampled& s = sampled_[i];
+        s.piece = pieces_[i];
+        for (std::size_t k = 0; k < 7; ++k) s.first[k] = f[k * (end - start)];
+        s.value = s.piece.half * rule7(s.first);
+        s.error = std::fabs(s.value - s.piece.half * rule4(s.first));
+      }
+    }
+  }
+
   // Adds the pieces that have converged; leaves in pieces_ the halves of the others.
   void settle(bool last) {
     std::size_t doubtful = 0;
