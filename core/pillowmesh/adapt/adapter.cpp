@@ -180,7 +180,10 @@ struct Adapter<Dim>::State {
     }
     // The cells of the layer too: one that is inside a thick or winding layer lost its tags without being refined.
     for (const CellId c : layer.cells) tagging.look_again(c);
-    for (const CellId changed : buffer_layer.changed) tagging.look_again(changed);
+    for (std::size_t i = 0; i < buffer_layer.changed.size(); ++i) {  // those outside have new neighbours, but the same edges
+      const CellId changed = buffer_layer.changed[i];
+      if (mesh.cells[changed] != buffer_layer.old_corners[i]) tagging.look_again(changed);
+    }
     for (const VertexId v : buffer_layer.moved) {  // made room: all edges there have changed
       vertex_star(mesh, v, pillow.plan.star);
       for (const CellCorner& at : pillow.plan.star) tagging.look_again(at.cell);

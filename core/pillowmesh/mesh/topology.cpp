@@ -102,32 +102,15 @@ void vertex_star(const Mesh<Dim>& mesh, VertexId v, std::vector<CellCorner>& out
   const CellId seed = mesh.vertex_cell[v];
   if (seed == kNone) return;
   out.push_back({seed, corner_of(mesh, seed, v)});
-  // Most neighbours that are met again are told by a bit each, without looking through the list; the way back to the cell
-  // that found this one is not even tried.
-  std::uint64_t seen = std::uint64_t{1} << (seed & 63);
-  std::array<std::int8_t, 64> entered;  // of the first cells
-  entered[0] = -1;
   for (std::size_t i = 0; i < out.size(); ++i) {
     const auto [c, corner] = out[i];
     for (int axis = 0; axis < Dim; ++axis) {
-      const int f = C::facet(axis, (corner >> axis) & 1);
-      if (i < entered.size() && entered[i] == f) continue;
-      const HalfFacetId twin = mesh.twins[c][f];
+      const HalfFacetId twin = mesh.twins[c][C::facet(axis, (corner >> axis) & 1)];
       if (twin < 0) continue;
       const CellId n = mesh.cell_of(twin);
-      const std::uint64_t bit = std::uint64_t{1} << (n & 63);
-      if (seen & bit) {
-        bool known = false;
-        for (std::size_t j = out.size(); j-- > 0 && !known;) known = out[j].cell == n;
-        if (known) continue;
-      }
-      seen |= bit;
-      const int back = mesh.facet_of(twin);
-      if (out.size() < entered.size()) entered[out.size()] = static_cast<std::int8_t>(back);
-      int at = C::facet_corner(back, 0);
-      for (int k = 1; k < C::facet_corners; ++k)
-        if (mesh.cells[n][C::facet_corner(back, k)] == v) at = C::facet_corner(back, k);
-      out.push_back({n, at});
+      bool known = false;
+      for (std::size_t j = out.size(); j-- > 0 && !known;) known = out[j].cell == n;
+      if (!known) out.push_back({n, corner_of(mesh, n, v)});
     }
   }
 }

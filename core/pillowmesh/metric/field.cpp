@@ -182,9 +182,10 @@ MetricField<Dim> MetricField<Dim>::scaled(double factor) const {
 template <int Dim>
 void MetricField<Dim>::evaluate(const PointLanes<Dim>& points, int count, TensorLanes<Dim>& out) const {
   program_->run(points.data(), count, out);
-  if (scale_ == 1.0) return;
+  const double scale = scale_;
+  if (scale == 1.0) return;
   for (Lanes& entry : out) {
-    for (int i = 0; i < count; ++i) entry[i] *= scale_;
+    for (int i = 0; i < count; ++i) entry[i] *= scale;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 namespace pillowmesh {
@@ -89,35 +90,48 @@ class Sampler {
 
   /// At node i of the k-th of n pieces: result[i * n + k]. One piece beside the other, so that the loops vectorise.
   const double* evaluate(const double* nodes, int count) {
-    const int n = used_;
-    for (int i = 0; i < count; ++i) {
-      for (int d = 0; d < Dim; ++d) {
-        double* points = points_[d].data() + i * n;
-        for (int k = 0; k < n; ++k) points[k] = origin_[d][k] + (middle_[k] + half_[k] * nodes[i]) * vector_[d][k];
-      }
-    }
-    field_.evaluate(points_, n * count, tensors_);
-    const auto& v = vector_;
-    for (int i = 0; i < count; ++i) {
-      const auto m = [&](int entry) { return tensors_[entry].data() + i * n; };
-      double* speed = speed_.data() + i * n;
-      for (int k = 0; k < n; ++k) {
-        double square =
-            m(0)[k] * v[0][k] * v[0][k] + 2.0 * m(1)[k] * v[0][k] * v[1][k] + m(2)[k] * v[1][k] * v[1][k];
-        if constexpr (Dim == 3) {
-          square += 2.0 * v[2][k] * (m(3)[k] * v[0][k] + m(4)[k] * v[1][k]) + m(5)[k] * v[2][k] * v[2][k];
-        }
-        // Rounding may leave a tiny negative number; what is not a number stays so.
-        speed[k] = std::sqrt(square < 0.0 ? 0.0 : square);
-      }
-    }
+    if (used_ == kUsual)
+      evaluate(nodes, count, std::integral_constant<int, kUsual>());
+    else
+      evaluate(nodes, count, used_);
     used_ = 0;
     return speed_.data();
   }
 
+  /// Pieces that are best evaluated together, with 7 nodes.
+  static constexpr int kUsual = 8;
+
  private:
   static constexpr int kMost = 10;  // pieces
   using Each = std::array<double, kMost>;
+
+  template <class Count>
+  void evaluate(const double* nodes, int count, Count n) {
+    const std::array<Each, Dim> o = origin_, v = vector_;
+    const Each middle = middle_, half = half_;
+    for (int i = 0; i < count; ++i) {
+      Each t;
+      for (int k = 0; k < n; ++k) t[k] = middle[k] + half[k] * nodes[i];
+      for (int d = 0; d < Dim; ++d) {
+        double* points = points_[d].data() + i * n;
+        for (int k = 0; k < n; ++k) points[k] = o[d][k] + t[k] * v[d][k];
+      }
+    }
+    field_.evaluate(points_, n * count, tensors_);
+    for (int i = 0; i < count; ++i) {
+      const auto m = [&](int entry) { return tensors_[entry].data() + i * n; };
+      Each square;
+      for (int k = 0; k < n; ++k) {
+        square[k] = m(0)[k] * v[0][k] * v[0][k] + 2.0 * m(1)[k] * v[0][k] * v[1][k] + m(2)[k] * v[1][k] * v[1][k];
+        if constexpr (Dim == 3) {
+          square[k] += 2.0 * v[2][k] * (m(3)[k] * v[0][k] + m(4)[k] * v[1][k]) + m(5)[k] * v[2][k] * v[2][k];
+        }
+      }
+      // Rounding may leave a tiny negative number; what is not a number stays so.
+      double* speed = speed_.data() + i * n;
+      for (int k = 0; k < n; ++k) speed[k] = std::sqrt(square[k] < 0.0 ? 0.0 : square[k]);
+    }
+  }
 
   const MetricField<Dim>& field_;
   std::array<Each, Dim> origin_, vector_;
@@ -133,7 +147,7 @@ class Sampler {
 template <int Dim>
 class Integrator {
  public:
-  static constexpr int kChunk = 72;  // edges; 9 pieces fill a batch of 64 lanes with 7 points each
+  static constexpr int kChunk = 72;  // edges
 
   Integrator(const MetricField<Dim>& field, const LengthOptions& options) : sampler_(field), options_(options) {}
 
@@ -195,7 +209,7 @@ class Integrator {
   [[nodiscard]] double error(int e) const { return 2.0 * error_[e]; }
 
  private:
-  static constexpr std::size_t kBatch = kLanes / 7;
+  static constexpr std::size_t kBatch = Sampler<Dim>::kUsual;
 
   // The 7-point rule on every piece.
   void sample() {
@@ -225,7 +239,6 @@ class Integrator {
       }
     }
     pieces_.clear();
-    constexpr std::size_t kBatch = kLanes / 6;
     for (std::size_t start = 0; start < doubtful; start += kBatch) {
       const std::size_t end = std::min(doubtful, start + kBatch);
       for (std::size_t i = start; i < end; ++i) {
