@@ -240,19 +240,19 @@ TEST_CASE("a row that is the whole mesh is split along the boundary that it lies
 }
 
 TEST_CASE("rows inside a winding layer, which touch no hull, are refined in the end") {
-  // Turns 1 to 3 of 5 are too wide: one layer of three rows side by side, of which the middle one has no hull.
-  const auto mesh = corpus::snail(12, 5);
+  // Turns 1 to 3 of 5 are too wide: one layer of three rows side by side. The outer two are halved, which is enough for
+  // them; the middle one touches no hull, and has lost its tags.
+  const auto mesh = corpus::snail(40, 5);
   const auto field = formula<2>(
       "d = sqrt(x^2 + y^2); theta = atan2(y, x); t = if(theta < 0, theta + 2*pi, theta)/(2*pi); turn = d - 2 - t;"
-      "h1 = if(abs(turn - 2.5) < 1.6, 0.3, 9); h2 = 99");
-  for (const int augment : {0, 1}) {
-    AdaptOptions options = unsmoothed();
-    options.augment = augment;
-    Adapter<2> adapter(mesh, field, options);
-    CHECK(adapter.run().ok());
-    CHECK(checks::longest_edge(adapter.mesh(), field) <= 2.0 * (1 + checks::kTagging));
-    CHECK(validate(adapter.mesh()).message == "");
-  }
+      "h1 = if(abs(turn - 2.5) < 1.501, 0.45, 9); h2 = 99");
+  AdaptOptions options = unsmoothed();
+  options.augment = 0;  // a ring more would end flat against the domain's re-entrant corner
+  Adapter<2> adapter(mesh, field, options);
+  CHECK(adapter.run().ok());
+  CHECK(adapter.operations().at("iterations") == 2);
+  CHECK(checks::longest_edge(adapter.mesh(), field) <= 2.0 * (1 + checks::kTagging));
+  CHECK(validate(adapter.mesh()).message == "");
 }
 
 TEST_CASE("where no layer can be inserted the run says so and leaves a valid mesh") {

@@ -95,6 +95,141 @@ TEST_CASE("a thicker layer takes the row beside it where more edges are tagged")
   CHECK(count_tags(mesh, tags) == 0);
 }
 
+namespace {
+
+constexpr int kWidth = 6;
+
+/// A grid of rows of kWidth unit cells: cell kWidth * j + i is number i of row j.
+Mesh<2> rows_of_cells(int rows) { return make_grid<2>({kWidth, rows}, Point<2>(0, 0), Point<2>(kWidth, rows)); }
+
+/// Tags the vertical edges of a row from number `first` to `last`; there are kWidth + 1.
+void tag_row(const Mesh<2>& mesh, EdgeTags<2>& tags, int row, int first = 0, int last = kWidth) {
+  for (int i = first; i <= last; ++i)
+    set_tag(mesh, tags, {kWidth * row + std::min(i, kWidth - 1), vertical(i == kWidth ? 1 : 0)});
+}
+
+/// The rows of the layer of `thickness` that starts in `seed_row`. Each must be in it as a whole.
+std::vector<int> rows_of_layer(const Mesh<2>& mesh, EdgeTags<2>& tags, int seed_row, int thickness, LayerMarks& marks) {
+  Layer layer;
+  find_layer<2>(mesh, tags, {kWidth * seed_row + 2, vertical(0)}, {0, thickness}, marks, layer);
+  std::vector<int> cells_in_row(mesh.cells.size() / kWidth, 0), rows;
+  for (const CellId c : layer.cells) ++cells_in_row[c / kWidth];
+  for (std::size_t row = 0; row < cells_in_row.size(); ++row) {
+    if (cells_in_row[row] == 0) continue;
+    CHECK(cells_in_row[row] == kWidth);
+    rows.push_back(static_cast<int>(row));
+  }
+  return rows;
+}
+
+using Rows = std::vector<int>;
+
+}  // namespace
+
+TEST_CASE("a row joins a thicker layer as a whole, and not at all when one of its cells is refined already") {
+  const auto mesh = rows_of_cells(5);
+  auto tags = no_tags(mesh);
+  tag_row(mesh, tags, 1);
+  tag_row(mesh, tags, 2);
+  LayerMarks marks;
+  marks.refined.assign(mesh.cells.size(), 0);
+  auto t = tags;
+  CHECK(rows_of_layer(mesh, t, 1, 2, marks) == Rows{1, 2});
+  CHECK(count_tags(mesh, t) == 0);
+
+  marks.refined[kWidth * 2 + 3] = 1u << 0;  // across the layer: does not matter
+  t = tags;
+  CHECK(rows_of_layer(mesh, t, 1, 2, marks) == Rows{1, 2});
+
+  marks.refined[kWidth * 2 + 3] = 1u << 1;
+  t = tags;
+  CHECK(rows_of_layer(mesh, t, 1, 2, marks) == Rows{1});
+  CHECK(count_tags(mesh, t) == kWidth + 1);  // the other row waits for a layer of its own
+}
+
+TEST_CASE("the last row before the boundary does not join a thicker layer: it would have no hull to be halved at") {
+  const auto mesh = rows_of_cells(4);
+  auto tags = no_tags(mesh);
+  for (const int row : {2, 3}) tag_row(mesh, tags, row);
+  LayerMarks marks;
+  auto t = tags;
+  CHECK(rows_of_layer(mesh, t, 2, 2, marks) == Rows{2});
+  tag_row(mesh, tags, 1);  // on the other side there is a row that may
+  t = tags;
+  CHECK(rows_of_layer(mesh, t, 2, 2, marks) == Rows{1, 2});
+}
+
+TEST_CASE("a layer along the boundary has hull on one side only, and does not become thicker") {
+  const auto mesh = rows_of_cells(4);
+  auto tags = no_tags(mesh);
+  for (const int row : {0, 1}) tag_row(mesh, tags, row);
+  LayerMarks marks;
+  CHECK(rows_of_layer(mesh, tags, 0, 2, marks) == Rows{0});
+  CHECK(count_tags(mesh, tags) == kWidth + 1);
+}
+
+TEST_CASE("a row with less than half as many tags does not join a thicker layer") {
+  const auto mesh = rows_of_cells(4);
+  auto tags = no_tags(mesh);
+  tag_row(mesh, tags, 1);        // 7 edges
+  tag_row(mesh, tags, 2, 2, 4);  // 3 edges
+  LayerMarks marks;
+  auto t = tags;
+  CHECK(rows_of_layer(mesh, t, 1, 2, marks) == Rows{1});
+  tag_row(mesh, tags, 2, 5, 5);  // and one more
+  t = tags;
+  CHECK(rows_of_layer(mesh, t, 1, 2, marks) == Rows{1, 2});
+}
+
+TEST_CASE("a layer grows by row after row on one side, up to its thickness or the first row that may not join") {
+  const auto mesh = rows_of_cells(7);
+  auto tags = no_tags(mesh);
+  for (const int row : {1, 2, 3}) tag_row(mesh, tags, row);
+  LayerMarks marks;
+  for (const auto& [thickness, rows] :
+       {std::pair{1, Rows{1}}, {2, Rows{1, 2}}, {3, Rows{1, 2, 3}}, {4, Rows{1, 2, 3}}}) {
+    auto t = tags;
+    CHECK(rows_of_layer(mesh, t, 1, thickness, marks) == rows);
+    CHECK(count_tags(mesh, t) == (kWidth + 1) * (3 - static_cast<int>(rows.size())));
+  }
+}
+
+TEST_CASE("a layer that winds beside itself does not become thicker: where it does, no hull is left") {
+  const int around = 12;
+  const auto mesh = corpus::snail(around, 7);
+  auto tags = no_tags(mesh);
+  //  15 edges, a turn and a quarter; and after a gap, all around that, enough tags for the row outside to join
+  for (CellId c = 3 * around; c < 4 * around + 3; ++c) set_tag(mesh, tags, {c, vertical(0)});
+  for (CellId c = 4 * around + 6; c < 5 * around + 3; ++c) set_tag(mesh, tags, {c, vertical(0)});
+  LayerMarks marks;
+  Layer layer;
+  find_layer<2>(mesh, tags, {3 * around, vertical(0)}, {0, 2}, marks, layer);
+  CHECK(layer.cells.size() == 16);
+  CHECK(layer.edges.size() == 15);
+}
+
+TEST_CASE("cells that this iteration has made are not halved again by a thicker layer beside them") {
+  //  row 2 is refined first: it and the cells made above and below it are small
+  auto mesh = rows_of_cells(6);
+  auto tags = no_tags(mesh);
+  tag_row(mesh, tags, 2);
+  LayerMarks marks;
+  Layer first, second;
+  find_layer<2>(mesh, tags, {kWidth * 2, vertical(0)}, {0, 1}, marks, first);
+  PillowWorkspace<2> work;
+  BufferLayer<2> made;
+  REQUIRE(insert_buffer_layer<2>(mesh, first.cells, {}, work, made).ok());
+  mark_refined<2>(mesh, first, made, work.hull.facets, marks);
+
+  tags.mask.resize(mesh.cells.size(), 0);
+  tag_row(mesh, tags, 3);
+  for (Index i = 0; i < made.cell_count; ++i)
+    for (int e = 0; e < 4; ++e) set_tag(mesh, tags, {made.first_cell + i, e});
+  find_layer<2>(mesh, tags, {kWidth * 3 + 2, vertical(0)}, {0, 2}, marks, second);
+  CHECK(second.cells.size() == kWidth);  // row 3 alone, for all the tags of the cells below it
+  for (const CellId c : second.cells) CHECK(c / kWidth == 3);
+}
+
 TEST_CASE("a quad with three tagged edges gets all four, and that spreads") {
   const auto mesh = make_grid<2>({3, 1}, Point<2>(0, 0), Point<2>(3, 1));
   auto tags = no_tags(mesh);
