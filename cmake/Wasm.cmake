@@ -1,5 +1,7 @@
-# build/wasm/pillowmesh.wasm: the core behind a C ABI (wasm/c_api.cpp), without generated JavaScript. The functions
-# exported are those that c_api.cpp marks with export_name or EMSCRIPTEN_KEEPALIVE.
+# The core behind a C interface (wasm/*_api.cpp), without generated JavaScript, in three modules, so that nobody
+# downloads what he does not use (docs/decisions/0010-three-modules.md): build/wasm/pillowmesh.wasm for quadrilaterals,
+# pillowmesh3d.wasm for hexahedra, pillowmesh_files.wasm for file formats. The functions exported are those that the
+# interfaces mark with PM_API.
 file(GLOB wasm_sources CONFIGURE_DEPENDS wasm/*.cpp)
 if(NOT wasm_sources)
   return()
@@ -17,14 +19,29 @@ foreach(source ${core_sources} ${wasm_sources})
   endif()
 endforeach()
 
-add_executable(pillowmesh_wasm ${wasm_sources})
-pillowmesh_compile_options(pillowmesh_wasm)
-target_include_directories(pillowmesh_wasm PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
-target_compile_definitions(pillowmesh_wasm PRIVATE PILLOWMESH_VERSION="${PROJECT_VERSION}")
-target_compile_options(pillowmesh_wasm PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-fno-exceptions -fno-rtti>)
-target_link_libraries(pillowmesh_wasm PRIVATE pillowmesh::core)
-target_link_options(pillowmesh_wasm PRIVATE
-  -Oz --no-entry -sSTANDALONE_WASM -sFILESYSTEM=0
-  -sINITIAL_MEMORY=16MB -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB)
-set_target_properties(pillowmesh_wasm PROPERTIES
-  OUTPUT_NAME pillowmesh SUFFIX .wasm RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+# Sources that ask which dimensions there are (mesh/any_mesh.h) are compiled for each module, the others once for all.
+set(by_dimension ${core_sources})
+list(FILTER by_dimension INCLUDE REGEX "pillowmesh/(io/io|mesh/primitives_parse)")
+set(shared ${core_sources})
+list(REMOVE_ITEM shared ${by_dimension})
+set_property(TARGET pillowmesh_core PROPERTY SOURCES ${shared})
+
+function(pillowmesh_module target)
+  cmake_parse_arguments(module "" "OUTPUT" "SOURCES;DEFINITIONS" ${ARGN})
+  add_executable(${target} ${module_SOURCES} wasm/memory.cpp wasm/input_bytes.cpp)
+  pillowmesh_compile_options(${target})
+  target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  target_compile_definitions(${target} PRIVATE PILLOWMESH_VERSION="${PROJECT_VERSION}" ${module_DEFINITIONS})
+  target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti)
+  target_link_libraries(${target} PRIVATE pillowmesh::core)
+  target_link_options(${target} PRIVATE
+    -Oz --no-entry -sSTANDALONE_WASM -sFILESYSTEM=0
+    -sINITIAL_MEMORY=16MB -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB)
+  set_target_properties(${target} PROPERTIES
+    OUTPUT_NAME ${module_OUTPUT} SUFFIX .wasm RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+endfunction()
+
+set(adapting wasm/c_api.cpp wasm/events.cpp ${by_dimension})
+pillowmesh_module(pillowmesh_wasm OUTPUT pillowmesh SOURCES ${adapting} DEFINITIONS PILLOWMESH_DIMENSION=2)
+pillowmesh_module(pillowmesh_wasm3d OUTPUT pillowmesh3d SOURCES ${adapting} DEFINITIONS PILLOWMESH_DIMENSION=3)
+pillowmesh_module(pillowmesh_wasm_files OUTPUT pillowmesh_files SOURCES wasm/files_api.cpp ${by_dimension})

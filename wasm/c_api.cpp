@@ -1,7 +1,6 @@
 #include "c_api.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <span>
@@ -12,8 +11,11 @@
 #include <vector>
 
 #include "events.h"
+#include "input_bytes.h"
 #include "pillowmesh/adapt/adapter.h"
-#include "pillowmesh/io/io.h"
+#include "pillowmesh/mesh/any_mesh.h"
+#include "pillowmesh/mesh/boundary.h"
+#include "pillowmesh/mesh/primitives.h"
 #include "pillowmesh/metric/field.h"
 #include "pillowmesh/metric/gallery.h"
 #include "pillowmesh/metric/length.h"
@@ -39,7 +41,7 @@ struct Problem {
   [[nodiscard]] const Mesh<Dim>& current() const { return adapter ? adapter->mesh() : mesh; }
 };
 
-using AnyProblem = std::variant<std::monostate, Problem<2>, Problem<3>>;
+using AnyProblem = AnyOf<Problem, std::monostate>;
 
 template <int Dim>
 std::span<const Point<Dim>> as_points(const double* coordinates, std::uint32_t count) {
@@ -80,6 +82,13 @@ Status check_cells(std::span<const Corners<Dim>> cells, std::uint32_t point_coun
                              std::to_string(point_count) + ".");
   }
   return {};
+}
+
+template <int Dim>
+Expected<AnyMesh> mesh_from_bytes(std::string_view name, std::span<const char> bytes) {
+  auto input = from_bytes<Dim>(bytes);
+  if (!input) return input.status();
+  return make_any_mesh(std::move(*input), name);
 }
 
 void append_quoted(std::string_view text, std::string& json) {
@@ -169,9 +178,6 @@ struct pm_session {
 
 extern "C" {
 
-void* pm_alloc(uint32_t bytes) { return std::malloc(bytes); }
-void pm_free(void* memory) { std::free(memory); }
-
 const char* pm_version(void) { return PILLOWMESH_VERSION; }
 
 const char* pm_cases(void) {
@@ -190,8 +196,16 @@ uint32_t pm_double_count(const pm_session* session) { return static_cast<uint32_
 const char* pm_bytes(const pm_session* session) { return session->bytes.data(); }
 uint32_t pm_byte_count(const pm_session* session) { return static_cast<uint32_t>(session->bytes.size()); }
 
-pm_status pm_load_file(pm_session* session, const char* name, uint32_t name_size, const char* bytes, uint32_t size) {
-  return session->load(read_mesh({name, name_size}, {bytes, size}));
+pm_status pm_load_input(pm_session* session, const char* name, uint32_t name_size, const char* bytes, uint32_t size) {
+  const std::string_view file(name, name_size);
+  switch (dimension_of({bytes, size})) {
+    case 2:
+      return session->load(mesh_from_bytes<2>(file, {bytes, size}));
+    case 3:
+      return session->load(mesh_from_bytes<3>(file, {bytes, size}));
+    default:
+      return session->finish(Status::usage("These are not the bytes of a mesh."));
+  }
 }
 
 pm_status pm_load_grid(pm_session* session, const char* spec, uint32_t size) {
@@ -289,11 +303,9 @@ pm_status pm_report(pm_session* session) {
   });
 }
 
-pm_status pm_write_file(pm_session* session, const char* name, uint32_t size) {
+pm_status pm_input(pm_session* session) {
   return session->with_mesh([&](auto& p) -> Status {
-    Expected<std::string> file = write_mesh(AnyMesh(p.current()), {name, size});
-    if (!file) return file.status();
-    session->bytes = std::move(*file);
+    session->bytes = to_bytes(to_input(p.current()));
     return {};
   });
 }

@@ -1,5 +1,6 @@
 // The C interface of pillowmesh: one opaque session, status codes, flat arrays. Compiled to WebAssembly it is the whole
-// boundary between the core and JavaScript; compiled natively it serves any language with a C foreign-function interface.
+// boundary between the core and JavaScript; compiled natively it serves any language with a C foreign-function
+// interface.
 //
 // Text goes in as UTF-8 pointer and length, and comes out NUL-terminated. Calls that return arrays leave them in the
 // session's three result buffers (ints, doubles, bytes), valid until the next call with the same session.
@@ -17,7 +18,7 @@ extern "C" {
 #define PM_API(name) __attribute__((visibility("default")))
 #endif
 
-/// 0 to 5 are StatusCode of mesh/status.h. A call that fails leaves its sentence in pm_message.
+/// 0 to 6 are StatusCode of mesh/status.h. A call that fails leaves its sentence in pm_message.
 enum {
   PM_OK = 0,
   PM_LIMIT_NOT_MET = 1,
@@ -25,7 +26,8 @@ enum {
   PM_BAD_INPUT = 3,
   PM_CANCELLED = 4,
   PM_ILLEGAL = 5,
-  PM_MORE = 100  ///< pm_step: the run is not over
+  PM_OTHER_DIMENSION = 6,  ///< pm_load_*: not a mistake, but a mesh for the module of the other dimension
+  PM_MORE = 100            ///< pm_step: the run is not over
 };
 typedef int32_t pm_status;
 
@@ -55,9 +57,9 @@ PM_API(pm_bytes) const char* pm_bytes(const pm_session* session);
 PM_API(pm_byte_count) uint32_t pm_byte_count(const pm_session* session);
 
 // What to adapt. Loading a mesh ends a run; a metric of the same dimension is kept.
-/// A mesh file in memory; the ending of `name` chooses the format.
-PM_API(pm_load_file)
-pm_status pm_load_file(pm_session* session, const char* name, uint32_t name_size, const char* bytes, uint32_t size);
+/// A mesh that pm_files_read (files_api.h) gave the bytes of; `name` is the file's, for messages.
+PM_API(pm_load_input)
+pm_status pm_load_input(pm_session* session, const char* name, uint32_t name_size, const char* bytes, uint32_t size);
 /// "grid:7,9:0,7,0,9", "ogrid:4,2:1", ...: see parse_primitive in mesh/primitives.h.
 PM_API(pm_load_grid) pm_status pm_load_grid(pm_session* session, const char* spec, uint32_t size);
 /// A case of the gallery: its mesh and its metric.
@@ -88,8 +90,8 @@ PM_API(pm_dimension) int32_t pm_dimension(const pm_session* session);
 PM_API(pm_mesh) pm_status pm_mesh(pm_session* session);
 /// bytes: the report (quality/report.h) as JSON text.
 PM_API(pm_report) pm_status pm_report(pm_session* session);
-/// bytes: the mesh as a file; the ending of `name` chooses the format.
-PM_API(pm_write_file) pm_status pm_write_file(pm_session* session, const char* name, uint32_t size);
+/// bytes: the mesh, for pm_load_input and pm_files_write.
+PM_API(pm_input) pm_status pm_input(pm_session* session);
 
 // Measures of any points and cells in the session's metric, e.g. of a viewer's copy at an earlier event.
 /// doubles: the metric tensor at each point, m11 m12 m22 [m13 m23 m33].

@@ -34,12 +34,12 @@ export class Client {
   private lost: CrashError | null = null;
 
   /** `dimension` tells the dimension of the mesh that events belong to. */
-  constructor(worker: Worker, core: string | ArrayBuffer, dimension: () => number) {
+  constructor(worker: Worker, modules: Setup['modules'], dimension: () => number) {
     this.worker = worker;
     this.dimension = dimension;
     worker.onmessage = ({ data }: MessageEvent<Reply>) => this.receive(data);
     worker.onerror = (event) => this.lose(new CrashError(event.message || 'the worker could not be started'));
-    const setup: Setup = { type: 'setup', core };
+    const setup: Setup = { type: 'setup', modules };
     worker.postMessage(setup);
   }
 

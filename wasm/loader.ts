@@ -27,7 +27,6 @@ type Status = number;
 /** The functions of c_api.h. */
 export interface Exports {
   memory: WebAssembly.Memory;
-  _initialize?(): void;
   pm_alloc(bytes: number): Pointer;
   pm_free(memory: Pointer): void;
   pm_version(): Pointer;
@@ -41,7 +40,7 @@ export interface Exports {
   pm_double_count(session: Pointer): number;
   pm_bytes(session: Pointer): Pointer;
   pm_byte_count(session: Pointer): number;
-  pm_load_file(session: Pointer, name: Pointer, nameSize: number, bytes: Pointer, size: number): Status;
+  pm_load_input(session: Pointer, name: Pointer, nameSize: number, bytes: Pointer, size: number): Status;
   pm_load_grid(session: Pointer, spec: Pointer, size: number): Status;
   pm_load_case(session: Pointer, name: Pointer, size: number): Status;
   pm_set_metric(session: Pointer, formula: Pointer, size: number, scale: number): Status;
@@ -52,10 +51,25 @@ export interface Exports {
   pm_dimension(session: Pointer): number;
   pm_mesh(session: Pointer): Status;
   pm_report(session: Pointer): Status;
-  pm_write_file(session: Pointer, name: Pointer, size: number): Status;
+  pm_input(session: Pointer): Status;
   pm_tensors(session: Pointer, points: Pointer, count: number): Status;
   pm_cell_shapes(session: Pointer, points: Pointer, pointCount: number, cells: Pointer, cellCount: number): Status;
   pm_edge_lengths(session: Pointer, points: Pointer, pointCount: number, cells: Pointer, cellCount: number): Status;
+}
+
+/** The functions of files_api.h. */
+export interface FilesExports {
+  memory: WebAssembly.Memory;
+  pm_alloc(bytes: number): Pointer;
+  pm_free(memory: Pointer): void;
+  pm_files_create(): Pointer;
+  pm_files_destroy(files: Pointer): void;
+  pm_files_message(files: Pointer): Pointer;
+  pm_files_bytes(files: Pointer): Pointer;
+  pm_files_byte_count(files: Pointer): number;
+  pm_files_dimension(files: Pointer): number;
+  pm_files_read(files: Pointer, name: Pointer, nameSize: number, bytes: Pointer, size: number): Status;
+  pm_files_write(files: Pointer, name: Pointer, nameSize: number, bytes: Pointer, size: number): Status;
 }
 
 /** The loaded core: its exports, and the module for further instances. */
@@ -66,6 +80,41 @@ export interface Core {
 
 /** Where the module comes from: an address to fetch, its bytes, or a module compiled before. */
 export type CoreSource = string | URL | BufferSource | WebAssembly.Module;
+
+/** The module of file formats, loaded. */
+export interface FilesModule {
+  readonly exports: FilesExports;
+  readonly module: WebAssembly.Module;
+}
+
+/** Where the modules are: for quadrilaterals, for hexahedra, for file formats. */
+export interface ModuleSources<T = CoreSource> {
+  2: T;
+  3: T;
+  files: T;
+}
+
+/** The modules, each loaded when first asked for; after a failure it is tried again. */
+export interface Modules {
+  core(dim: 2 | 3): Promise<Core>;
+  files(): Promise<FilesModule>;
+}
+
+export function modulesFrom(sources: ModuleSources): Modules {
+  const cores = new Map<2 | 3, Promise<Core>>();
+  const files = new Map<'files', Promise<FilesModule>>();
+  return {
+    core: (dim) => once(cores, dim, () => loadCore(sources[dim])),
+    files: () => once(files, 'files', () => loadFiles(sources.files)),
+  };
+}
+
+function once<K, T>(loading: Map<K, Promise<T>>, key: K, load: () => Promise<T>): Promise<T> {
+  const promise = loading.get(key) ?? load();
+  loading.set(key, promise);
+  promise.catch(() => loading.delete(key));
+  return promise;
+}
 
 async function compile(source: CoreSource): Promise<WebAssembly.Module> {
   if (typeof WebAssembly !== 'object')
@@ -121,8 +170,11 @@ function imports(memory: () => WebAssembly.Memory): WebAssembly.Imports {
   return { wasi_snapshot_preview1: wasi, env: { emscripten_notify_memory_growth: () => undefined } };
 }
 
-/** Compiles and instantiates the core. Rejects with a LoadError that says what is wrong. */
-export async function loadCore(source: CoreSource): Promise<Core> {
+/** Compiles and instantiates a module with the function `wanted`. Rejects with a LoadError that says what is wrong. */
+async function load<E extends { memory: WebAssembly.Memory }>(
+  source: CoreSource,
+  wanted: keyof E,
+): Promise<{ exports: E; module: WebAssembly.Module }> {
   const module = await compile(source);
   const holder: { memory?: WebAssembly.Memory } = {};
   let instance: WebAssembly.Instance;
@@ -134,10 +186,20 @@ export async function loadCore(source: CoreSource): Promise<Core> {
   } catch (error) {
     throw new LoadError('broken', `The core does not fit its loader: ${(error as Error).message}`);
   }
-  const exports = instance.exports as unknown as Exports;
-  if (typeof exports.pm_create !== 'function')
+  const exports = instance.exports as unknown as E & { _initialize?(): void };
+  if (typeof exports[wanted] !== 'function')
     throw new LoadError('broken', 'The file is WebAssembly, but not the core of pillowmesh.');
   holder.memory = exports.memory;
   exports._initialize?.();
   return { exports, module };
+}
+
+/** The core for one dimension: pillowmesh.wasm or pillowmesh3d.wasm. */
+export function loadCore(source: CoreSource): Promise<Core> {
+  return load<Exports>(source, 'pm_create');
+}
+
+/** The module of file formats: pillowmesh_files.wasm. */
+export function loadFiles(source: CoreSource): Promise<FilesModule> {
+  return load<FilesExports>(source, 'pm_files_create');
 }

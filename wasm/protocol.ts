@@ -1,5 +1,5 @@
 // The messages between a page and the worker that computes.
-import type { LoadFailure } from './loader.ts';
+import type { LoadFailure, ModuleSources } from './loader.ts';
 import type { Case, MeshArrays, MeshSource, MetricSpec, Options, Outcome, StatusName } from './session.ts';
 
 /** The calls that a worker answers: arguments and result of each. */
@@ -60,8 +60,8 @@ export type Reply =
   /** More events of the run that was started by request `id`. */
   | { type: 'events'; id: number; ints: Int32Array; doubles: Float64Array };
 
-/** The first message to a worker: where the core is. */
+/** The first message to a worker: where the modules are. */
 export interface Setup {
   type: 'setup';
-  core: string | ArrayBuffer;
+  modules: ModuleSources<string | ArrayBuffer>;
 }

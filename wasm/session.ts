@@ -1,20 +1,11 @@
 // A typed session over the C interface: a mesh, a metric, options, and the run made of them.
-import { CrashError, type Core, type Exports } from './loader.ts';
+import { readFile } from './files.ts';
+import { CrashError, type Core, type Exports, type Modules } from './loader.ts';
+import { CoreError, guard, pass, readBytes, readText, statusNames, type Argument, type StatusName } from './memory.ts';
 
-/** In the order of StatusCode in core/pillowmesh/mesh/status.h. */
-export const statusNames = ['ok', 'limit_not_met', 'usage', 'bad_input', 'cancelled', 'illegal'] as const;
-export type StatusName = (typeof statusNames)[number];
+export { CoreError, statusNames, type StatusName } from './memory.ts';
+
 const more = 100;
-
-/** A call that the core refused: what kind of refusal, and its sentence. */
-export class CoreError extends Error {
-  readonly status: StatusName;
-  constructor(status: StatusName, message: string) {
-    super(message);
-    this.name = 'CoreError';
-    this.status = status;
-  }
-}
 
 /** A case of the gallery. */
 export interface Case {
@@ -29,6 +20,9 @@ export interface Case {
 /** What to adapt. */
 export type MeshSource =
   { kind: 'case'; name: string } | { kind: 'grid'; spec: string } | { kind: 'file'; name: string; bytes: Uint8Array };
+
+/** The same with a file read: what a session loads. `bytes` are those of `readFile`. */
+export type Loadable = Exclude<MeshSource, { kind: 'file' }> | { kind: 'input'; name: string; bytes: Uint8Array };
 
 export interface MetricSpec {
   formula: string;
@@ -58,14 +52,6 @@ export interface Outcome {
   message: string;
 }
 
-const encoder = new TextEncoder();
-const decoder = new TextDecoder();
-
-function readText(exports: Exports, pointer: number): string {
-  const bytes = new Uint8Array(exports.memory.buffer);
-  return decoder.decode(bytes.subarray(pointer, bytes.indexOf(0, pointer)));
-}
-
 /** The version of the core. */
 export function version(core: Core): string {
   return readText(core.exports, core.exports.pm_version());
@@ -76,8 +62,42 @@ export function cases(core: Core): Case[] {
   return JSON.parse(readText(core.exports, core.exports.pm_cases())) as Case[];
 }
 
-type Argument = string | Uint8Array | Int32Array | Float64Array;
+/** A session with its mesh, and what it takes to make it again. */
+export interface Opened {
+  core: Core;
+  session: Session;
+  source: Loadable;
+}
 
+/**
+ * A session with the mesh loaded, on the core of its dimension. A file tells its dimension when it is read. Of anything
+ * else the core for 2D is asked first, and that for 3D when it answers that the mesh is none of its own.
+ */
+export async function openSession(modules: Modules, mesh: MeshSource): Promise<Opened> {
+  if (mesh.kind === 'file') {
+    const { dim, bytes } = readFile(await modules.files(), mesh.name, mesh.bytes);
+    return loaded(await modules.core(dim), { kind: 'input', name: mesh.name, bytes });
+  }
+  try {
+    return loaded(await modules.core(2), mesh);
+  } catch (error) {
+    if (!(error instanceof CoreError && error.status === 'other_dimension')) throw error;
+    return loaded(await modules.core(3), mesh);
+  }
+}
+
+function loaded(core: Core, source: Loadable): Opened {
+  const session = new Session(core);
+  try {
+    session.load(source);
+    return { core, session, source };
+  } catch (error) {
+    if (!(error instanceof CrashError)) session.destroy();
+    throw error;
+  }
+}
+
+/** One mesh at a time, all of the dimension that its core is for. */
 export class Session {
   private readonly core: Exports;
   private readonly handle: number;
@@ -92,16 +112,16 @@ export class Session {
     this.core.pm_destroy(this.handle);
   }
 
-  load(source: MeshSource): void {
+  load(source: Loadable): void {
     const { core, handle } = this;
     switch (source.kind) {
       case 'case':
         return this.check(this.pass([source.name], (p, n) => core.pm_load_case(handle, p, n)));
       case 'grid':
         return this.check(this.pass([source.spec], (p, n) => core.pm_load_grid(handle, p, n)));
-      case 'file':
+      case 'input':
         return this.check(
-          this.pass([source.name, source.bytes], (p, n, q, m) => core.pm_load_file(handle, p, n, q, m)),
+          this.pass([source.name, source.bytes], (p, n, q, m) => core.pm_load_input(handle, p, n, q, m)),
         );
     }
   }
@@ -115,18 +135,18 @@ export class Session {
   }
 
   begin(): void {
-    this.check(this.guard(() => this.core.pm_begin(this.handle)));
+    this.check(guard(() => this.core.pm_begin(this.handle)));
   }
 
   /** At most `steps` steps of the adapter. Returns how the run ended, or null while it is not over. */
   step(steps = 1): Outcome | null {
-    const status = this.guard(() => this.core.pm_step(this.handle, steps));
+    const status = guard(() => this.core.pm_step(this.handle, steps));
     return status === more ? null : { status: statusNames[status], message: this.message() };
   }
 
   /** Events since the last call; decode with decodeEvents. The arrays are the caller's. */
   takeEvents(): { ints: Int32Array; doubles: Float64Array } {
-    this.check(this.guard(() => this.core.pm_take_events(this.handle)));
+    this.check(guard(() => this.core.pm_take_events(this.handle)));
     return { ints: this.ints(), doubles: this.doubles() };
   }
 
@@ -137,19 +157,19 @@ export class Session {
 
   /** The mesh as it is now. */
   mesh(): MeshArrays {
-    this.check(this.guard(() => this.core.pm_mesh(this.handle)));
+    this.check(guard(() => this.core.pm_mesh(this.handle)));
     return { dim: this.dimension(), points: this.doubles(), cells: this.ints() };
   }
 
   /** The report on the mesh as it is now, as JSON text (docs/report.md). */
   report(): string {
-    this.check(this.guard(() => this.core.pm_report(this.handle)));
-    return decoder.decode(this.bytes());
+    this.check(guard(() => this.core.pm_report(this.handle)));
+    return new TextDecoder().decode(this.bytes());
   }
 
-  /** The mesh as it is now as a file; the ending of `name` chooses the format. */
-  write(name: string): Uint8Array<ArrayBuffer> {
-    this.check(this.pass([name], (p, n) => this.core.pm_write_file(this.handle, p, n)));
+  /** The mesh as it is now, for `writeFile` or another session. */
+  input(): Uint8Array<ArrayBuffer> {
+    this.check(guard(() => this.core.pm_input(this.handle)));
     return this.bytes();
   }
 
@@ -187,30 +207,8 @@ export class Session {
     return readText(this.core, this.core.pm_message(this.handle));
   }
 
-  private guard<T>(call: () => T): T {
-    try {
-      return call();
-    } catch (error) {
-      throw new CrashError(error);
-    }
-  }
-
-  /** Copies the arguments into the core's memory, calls with (pointer, bytes) of each, frees. */
   private pass(args: Argument[], call: (p: number, n: number, q: number, m: number) => number): number {
-    return this.guard(() => {
-      const flat: number[] = [];
-      for (const argument of args) {
-        const data = typeof argument === 'string' ? encoder.encode(argument) : argument;
-        const bytes = new Uint8Array(data.buffer, data.byteOffset, data.byteLength);
-        const pointer = this.core.pm_alloc(Math.max(bytes.length, 1));
-        if (pointer === 0) throw new RangeError('out of memory');
-        new Uint8Array(this.core.memory.buffer).set(bytes, pointer);
-        flat.push(pointer, bytes.length);
-      }
-      const status = call(flat[0], flat[1], flat[2] ?? 0, flat[3] ?? 0);
-      for (let i = 0; i < flat.length; i += 2) this.core.pm_free(flat[i]);
-      return status;
-    });
+    return pass(this.core, args, call);
   }
 
   private ints(): Int32Array<ArrayBuffer> {
@@ -225,6 +223,6 @@ export class Session {
 
   private bytes(): Uint8Array<ArrayBuffer> {
     const { core, handle } = this;
-    return new Uint8Array(core.memory.buffer, core.pm_bytes(handle), core.pm_byte_count(handle)).slice();
+    return readBytes(core, core.pm_bytes(handle), core.pm_byte_count(handle));
   }
 }

@@ -1,15 +1,26 @@
 // A module worker around one session: runs adaptations in slices so that it can be paused and cancelled, streams their
 // events, and answers measurements between the slices.
 import { decodeEvents } from './events.ts';
-import { CrashError, LoadError, loadCore, type Core } from './loader.ts';
+import { writeFile } from './files.ts';
+import { CrashError, LoadError, modulesFrom, type Core, type Modules } from './loader.ts';
 import type { CallName, Calls, Failure, Reply, Request, RunResult, Setup } from './protocol.ts';
-import { CoreError, Session, cases, version, type MeshSource, type MetricSpec, type Options } from './session.ts';
+import {
+  CoreError,
+  Session,
+  cases,
+  openSession,
+  version,
+  type Loadable,
+  type MetricSpec,
+  type Options,
+} from './session.ts';
 
 const sliceMilliseconds = 12;
 
 /** What the session was made of: enough to make it again. */
 interface Recipe {
-  source: MeshSource;
+  core: Core;
+  source: Loadable;
   metric?: MetricSpec;
   options: Options;
 }
@@ -55,20 +66,23 @@ function transferables(result: unknown): Transferable[] {
 /** Answers requests. `post` sends a reply with its transferables. */
 export class Server {
   private readonly port: Port;
-  private readonly core: Promise<Core>;
+  private readonly modules: Modules;
+  /** Settled when the meshes asked for so far are open: one may wait for its module while other requests come in. */
+  private opened: Promise<unknown> = Promise.resolve();
   private session: Session | null = null;
   private recipe: Recipe | null = null;
   private run: Run | null = null;
 
-  constructor(port: Port, core: Promise<Core>) {
+  constructor(port: Port, modules: Modules) {
     this.port = port;
-    this.core = core;
-    core.catch(() => undefined); // told to each request instead
+    this.modules = modules;
   }
 
   async handle(request: Request): Promise<void> {
     try {
-      const result = await this.answer(request);
+      const answer = this.opened.then(() => this.answer(request));
+      if (request.name === 'open') this.opened = answer.catch(() => undefined); // told to its own request
+      const result = await answer;
       this.port.postMessage({ type: 'answer', id: request.id, result }, transferables(result));
     } catch (error) {
       this.port.postMessage({ type: 'failure', id: request.id, failure: toFailure(error) }, []);
@@ -76,25 +90,28 @@ export class Server {
   }
 
   private async answer(request: Request): Promise<Calls[CallName]['result']> {
-    const core = await this.core;
     switch (request.name) {
-      case 'about':
+      case 'about': {
+        const core = await this.modules.core(2);
         return { version: version(core), cases: cases(core) };
+      }
       case 'open': {
+        const { source, metric } = request.args;
         this.cancel();
-        const next = this.make(core, { ...request.args, options: {} });
+        const { session, ...made } = await openSession(this.modules, source);
+        this.prepare(session, { metric, options: {} });
         this.session?.destroy();
-        this.session = next;
-        this.recipe = { ...request.args, options: {} };
-        return next.mesh();
+        this.session = session;
+        this.recipe = { ...made, metric, options: {} };
+        return session.mesh();
       }
       case 'metric':
-        this.opened().setMetric(request.args);
+        this.present().setMetric(request.args);
         this.cancel();
         this.recipe!.metric = request.args;
         return null;
       case 'run':
-        return this.adapt(core, request.id, request.args.options);
+        return this.adapt(request.id, request.args.options);
       case 'pause':
         if (this.run) this.run.paused = true;
         return null;
@@ -109,33 +126,38 @@ export class Server {
         return null;
       case 'measure': {
         const { points, cells, lengths } = request.args;
-        const shapes = this.opened().cellShapes(points, cells);
+        const shapes = this.present().cellShapes(points, cells);
         return {
           shapes,
-          lengths: lengths ? this.opened().edgeLengths(points, cells).lengths : new Float64Array(0),
+          lengths: lengths ? this.present().edgeLengths(points, cells).lengths : new Float64Array(0),
         };
       }
       case 'tensors':
-        return this.opened().tensors(request.args.points);
+        return this.present().tensors(request.args.points);
       case 'write':
-        return this.write(core, request.args.name, request.args.events);
+        return this.write(request.args.name, request.args.events);
       case 'report':
-        return this.opened().report();
+        return this.present().report();
     }
   }
 
-  private opened(): Session {
+  private present(): Session {
     if (!this.session) throw new CoreError('usage', 'No mesh is open.');
     return this.session;
   }
 
-  private make(core: Core, recipe: Recipe): Session {
-    const session = new Session(core);
+  private make(recipe: Recipe): Session {
+    const session = new Session(recipe.core);
+    session.load(recipe.source); // not refused: it was loaded before
+    this.prepare(session, recipe);
+    return session;
+  }
+
+  /** What a session needs for its run. One that is refused it is freed. */
+  private prepare(session: Session, { metric, options }: Pick<Recipe, 'metric' | 'options'>): void {
     try {
-      session.load(recipe.source);
-      if (recipe.metric) session.setMetric(recipe.metric);
-      for (const [name, value] of Object.entries(recipe.options)) session.setOption(name, value);
-      return session;
+      if (metric) session.setMetric(metric);
+      for (const [name, value] of Object.entries(options)) session.setOption(name, value);
     } catch (error) {
       if (!(error instanceof CrashError)) session.destroy();
       throw error;
@@ -149,11 +171,11 @@ export class Server {
   }
 
   /** Steps in slices until the run is over. Options start from their defaults every time. */
-  private async adapt(core: Core, id: number, options: Options): Promise<RunResult> {
-    this.opened();
+  private async adapt(id: number, options: Options): Promise<RunResult> {
+    this.present();
     this.cancel();
     const recipe: Recipe = { ...this.recipe!, options };
-    const session = this.make(core, recipe);
+    const session = this.make(recipe);
     this.session!.destroy();
     this.session = session;
     this.recipe = recipe;
@@ -193,12 +215,13 @@ export class Server {
   }
 
   /** An earlier mesh is made again from the recipe: runs are deterministic. */
-  private write(core: Core, name: string, events?: number): Uint8Array {
+  private async write(name: string, events?: number): Promise<Uint8Array> {
+    const files = name.endsWith('.json') ? null : await this.modules.files();
     const content = (session: Session): Uint8Array =>
-      name.endsWith('.json') ? new TextEncoder().encode(session.report()) : session.write(name);
-    if (events === undefined) return content(this.opened());
-    this.opened();
-    const again = this.make(core, this.recipe!);
+      files ? writeFile(files, name, session.input()) : new TextEncoder().encode(session.report());
+    if (events === undefined) return content(this.present());
+    this.present();
+    const again = this.make(this.recipe!);
     try {
       let count = 0;
       if (events > 0) again.begin();
@@ -213,11 +236,11 @@ export class Server {
   }
 }
 
-/** Connects a server to the worker's own scope; the first message says where the core is. */
+/** Connects a server to the worker's own scope; the first message says where the modules are. */
 export function serve(scope: DedicatedWorkerGlobalScopeLike): void {
   let server: Server | null = null;
   scope.onmessage = ({ data }) => {
-    if ('type' in data) server = new Server(scope, loadCore(data.core));
+    if ('type' in data) server = new Server(scope, modulesFrom(data.modules));
     else void server?.handle(data);
   };
 }

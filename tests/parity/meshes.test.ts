@@ -7,14 +7,14 @@ import { fileURLToPath } from 'node:url';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import type { Core } from '../../wasm/loader.ts';
 import { cases, type Options } from '../../wasm/session.ts';
-import { load, modulePath, open, reportOf, runToEnd, type Report } from '../wasm/core.ts';
+import { load, modulePaths, open, reportOf, runToEnd, write, type Report } from '../wasm/core.ts';
 
 const command = fileURLToPath(new URL('../../build/release/bin/pillowmesh', import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), 'pillowmesh-parity-'));
 const core: Core = await load();
 
 beforeAll(() => {
-  for (const file of [command, fileURLToPath(modulePath)])
+  for (const file of [command, ...Object.values(modulePaths).map((path) => fileURLToPath(path))])
     if (!existsSync(file)) throw new Error(`${file} is missing; build the presets release and wasm first`);
 });
 afterAll(() => rmSync(folder, { recursive: true }));
@@ -39,7 +39,7 @@ function adaptInWasm(
 ): { file: Uint8Array; report: Report } {
   const session = open(core, source, formula === null ? undefined : { formula }, options);
   runToEnd(session);
-  const result = { file: session.write(name), report: reportOf(session) };
+  const result = { file: write(session, name), report: reportOf(session) };
   session.destroy();
   return result;
 }
@@ -79,6 +79,15 @@ describe('native and WebAssembly give the same mesh and the same numbers', () =>
       expect(text(wasm.file) === text(native.file)).toBe(true);
     });
 
+  for (const name of ['plate_hole_v4.msh', 'annulus_v2.msh', 'lshape_v2.msh'])
+    test(`the file ${name}, its groups and their names`, () => {
+      const [path, out] = [fileURLToPath(new URL(`../data/${name}`, import.meta.url)), join(folder, name)];
+      expect(spawnSync(command, ['convert', path, out]).status).toBe(0);
+      const session = open(core, { kind: 'file', name, bytes: readFileSync(path) });
+      expect(text(write(session, name)) === readFileSync(out, 'utf8')).toBe(true);
+      session.destroy();
+    });
+
   test('a formula of every function, on a mesh that comes as a file', () => {
     const formula =
       'a = 0.02 + 0.05*abs(sin(3*x)*cos(2*y)) + 0.01*exp(-x^2)*tanh(y) + 0.01*log(2 + x);' +
@@ -86,7 +95,7 @@ describe('native and WebAssembly give the same mesh and the same numbers', () =>
       'h1 = max(a, 0.03) + 0.01*floor(2*x); h2 = min(2*h1, sqrt(0.04 + pow(x, 2.5)) + tan(0.1*y))';
     const path = join(folder, 'start.msh');
     const start = open(core, { kind: 'grid', spec: 'grid:6,5:0,1,0,1' });
-    const bytes = start.write('start.msh');
+    const bytes = write(start, 'start.msh');
     expect(spawnSync(command, ['convert', 'grid:6,5:0,1,0,1', path]).status).toBe(0);
     expect(text(readFileSync(path)) === text(bytes)).toBe(true);
     const native = adaptNatively([path, '--metric', formula], 'mesh.msh');

@@ -1,15 +1,49 @@
 // The built module, loaded once per test file.
 import { readFileSync } from 'node:fs';
-import { loadCore, type Core } from '../../wasm/loader.ts';
-import { Session, type MeshSource, type MetricSpec, type Options, type Outcome } from '../../wasm/session.ts';
+import { readFile, writeFile, type Input } from '../../wasm/files.ts';
+import { loadCore, loadFiles, type Core } from '../../wasm/loader.ts';
+import {
+  CoreError,
+  Session,
+  type MeshSource,
+  type MetricSpec,
+  type Options,
+  type Outcome,
+} from '../../wasm/session.ts';
 
-export const modulePath = new URL('../../build/wasm/pillowmesh.wasm', import.meta.url);
-export const moduleBytes = (): Buffer<ArrayBuffer> => readFileSync(modulePath) as Buffer<ArrayBuffer>;
+const built = (name: string): URL => new URL(`../../build/wasm/${name}.wasm`, import.meta.url);
+export const modulePaths = { 2: built('pillowmesh'), 3: built('pillowmesh3d'), files: built('pillowmesh_files') };
+export const moduleBytes = (which: 2 | 3 | 'files' = 2): Buffer<ArrayBuffer> =>
+  readFileSync(modulePaths[which]) as Buffer<ArrayBuffer>;
 export const load = (): Promise<Core> => loadCore(moduleBytes());
+const solidCore = await loadCore(moduleBytes(3));
+const files = await loadFiles(moduleBytes('files'));
+
+export const read = (name: string, bytes: Uint8Array): Input => readFile(files, name, bytes);
+export const write = (session: Session, name: string): Uint8Array<ArrayBuffer> =>
+  writeFile(files, name, session.input());
+
+/** openSession for tests that have all modules loaded; `core` is that for 2D. */
+function loaded(core: Core, source: MeshSource): Session {
+  if (source.kind === 'file') {
+    const { dim, bytes } = read(source.name, source.bytes);
+    const session = new Session(dim === 2 ? core : solidCore);
+    session.load({ kind: 'input', name: source.name, bytes });
+    return session;
+  }
+  const session = new Session(core);
+  try {
+    session.load(source);
+    return session;
+  } catch (error) {
+    session.destroy();
+    if (core === solidCore || !(error instanceof CoreError && error.status === 'other_dimension')) throw error;
+    return loaded(solidCore, source);
+  }
+}
 
 export function open(core: Core, source: MeshSource, metric?: MetricSpec, options: Options = {}): Session {
-  const session = new Session(core);
-  session.load(source);
+  const session = loaded(core, source);
   if (metric) session.setMetric(metric);
   for (const [name, value] of Object.entries(options)) session.setOption(name, value);
   return session;

@@ -91,10 +91,20 @@ describe('what is refused is told in a sentence', () => {
     session.destroy();
   });
 
+  test('bytes that are not of a mesh, or not all of them', () => {
+    const session = open(core, unitSquare);
+    const bytes = session.input();
+    const load = (part: Uint8Array<ArrayBuffer>) => session.load({ kind: 'input', name: 'a.msh', bytes: part });
+    expect(refusal(() => load(new Uint8Array(9))).status).toBe('usage');
+    for (let n = 7; n < bytes.length; ++n) expect(refusal(() => load(bytes.slice(0, n))).status).toBe('bad_input');
+    load(bytes);
+    expect(session.input()).toEqual(bytes);
+    session.destroy();
+  });
+
   test('a file with its name, line and reason', () => {
-    const session = new Session(core);
     const file = (name: string, text: string) =>
-      refusal(() => session.load({ kind: 'file', name, bytes: new TextEncoder().encode(text) }));
+      refusal(() => open(core, { kind: 'file', name, bytes: new TextEncoder().encode(text) }));
     expect(file('empty.mesh', '')).toMatchObject({
       status: 'bad_input',
       message: expect.stringContaining('empty.mesh'),
@@ -105,6 +115,20 @@ describe('what is refused is told in a sentence', () => {
     expect(file('tri.mesh', triangle).message).toMatch(/tri\.mesh.*riangle/s);
     const broken = 'MeshVersionFormatted 2\nDimension 2\nVertices\n2\n0 0 0\n1 zero 0\nEnd\n';
     expect(file('broken.mesh', broken).message).toMatch(/broken\.mesh, line 6/);
+  });
+
+  test('a mesh for the module of the other dimension, which is no mistake', () => {
+    const hexes = open(core, { kind: 'grid', spec: 'grid:1,1,1:0,1,0,1,0,1' });
+    const bytes = hexes.input();
+    hexes.destroy();
+    const session = new Session(core);
+    for (const source of [
+      { kind: 'grid', spec: 'grid:1,1,1:0,1,0,1,0,1' },
+      { kind: 'grid', spec: 'ring:8,2,2:1,2,0,1' },
+      { kind: 'case', name: 'linear3d' },
+      { kind: 'input', name: 'cube.msh', bytes },
+    ] as const)
+      expect(refusal(() => session.load(source)).status).toBe('other_dimension');
     session.destroy();
   });
 

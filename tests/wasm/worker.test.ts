@@ -2,15 +2,23 @@ import { describe, expect, test } from 'vitest';
 import { decodeEvents } from '../../wasm/events.ts';
 import type { CallName, Calls, Reply, Request } from '../../wasm/protocol.ts';
 import { Server } from '../../wasm/worker.ts';
-import { load } from './core.ts';
+import { modulesFrom, type Modules } from '../../wasm/loader.ts';
+import { moduleBytes } from './core.ts';
+
+const all = { 2: moduleBytes(2), 3: moduleBytes(3), files: moduleBytes('files') };
 
 /** The worker's server in this thread: calls as promises, events collected. */
 class Bench {
   events = 0;
+  dim = 2;
   onEvents: () => void = () => undefined;
   private next = 1;
   private readonly waiting = new Map<number, { resolve(value: unknown): void; reject(error: unknown): void }>();
-  private readonly server = new Server({ postMessage: (reply: Reply) => this.receive(reply) }, load());
+  private readonly server: Server;
+
+  constructor(modules: Modules = modulesFrom(all)) {
+    this.server = new Server({ postMessage: (reply: Reply) => this.receive(reply) }, modules);
+  }
 
   call<N extends CallName>(name: N, args: Calls[N]['args']): Promise<Calls[N]['result']> {
     const id = this.next++;
@@ -21,7 +29,7 @@ class Bench {
 
   private receive(reply: Reply): void {
     if (reply.type === 'events') {
-      this.events += decodeEvents(2, reply.ints, reply.doubles).length;
+      this.events += decodeEvents(this.dim, reply.ints, reply.doubles).length;
       this.onEvents();
     } else if (reply.type === 'answer') this.waiting.get(reply.id)?.resolve(reply.result);
     else this.waiting.get(reply.id)?.reject(reply.failure);
@@ -83,6 +91,54 @@ describe('the worker', () => {
     const shapes = await bench.call('measure', { points: mesh.points, cells: mesh.cells, lengths: true });
     expect(shapes.shapes.length).toBe(63);
     expect(shapes.lengths.length).toBe(142);
+  });
+
+  test('fetches the module for hexahedra when a mesh of them is opened, and no sooner', async () => {
+    const asked: (number | string)[] = [];
+    const { core, files } = modulesFrom(all);
+    const bench = new Bench({
+      core: (dim) => (asked.push(dim), core(dim)),
+      files: () => (asked.push('files'), files()),
+    });
+    await bench.call('about', {});
+    await bench.call('open', iso2d);
+    await bench.call('run', { options: { smooth: 'none' } });
+    expect(new Set(asked)).toEqual(new Set([2]));
+    const mesh = await bench.call('open', { source: { kind: 'case', name: 'linear3d' } });
+    expect(mesh.dim).toBe(3);
+    bench.dim = mesh.dim;
+    const { outcome, report } = await bench.call('run', { options: { smooth: 'none' } });
+    expect(outcome.status).toBe('ok');
+    expect(JSON.parse(report).mesh.dim).toBe(3);
+    expect((await bench.call('open', iso2d)).dim).toBe(2);
+    expect(asked).not.toContain('files');
+    expect((await bench.call('write', { name: 'a.vtu' })).length).toBeGreaterThan(1000);
+    expect(asked).toContain('files');
+  });
+
+  test('answers in order what is asked while a mesh waits for its module', async () => {
+    const { core, files } = modulesFrom(all);
+    const slow: Modules['core'] = async (dim) => {
+      if (dim === 3) await pause(50);
+      return core(dim);
+    };
+    const bench = new Bench({ core: slow, files });
+    const grid = (spec: string) => bench.call('open', { source: { kind: 'grid', spec } });
+    const solid = grid('grid:1,1,1:0,1,0,1,0,1');
+    const metric = bench.call('metric', { formula: 'h = 1' });
+    const tensors = bench.call('tensors', { points: new Float64Array(3) });
+    const plane = grid('grid:1,1:0,1,0,1');
+    expect((await solid).dim).toBe(3);
+    expect(await metric).toBeNull();
+    expect((await tensors).length).toBe(6);
+    expect((await plane).dim).toBe(2);
+  });
+
+  test('a module that cannot be had fails the mesh that wants it, and no other', async () => {
+    const bench = new Bench(modulesFrom({ ...all, 3: moduleBytes(3).subarray(0, 100) }));
+    const solid = bench.call('open', { source: { kind: 'case', name: 'sphere3d' } });
+    await expect(solid).rejects.toMatchObject({ kind: 'load', reason: 'broken' });
+    expect((await bench.call('open', iso2d)).dim).toBe(2);
   });
 
   test('options of one run are not those of the next', async () => {

@@ -315,6 +315,30 @@ describe('saving', () => {
   });
 });
 
+describe('what a visitor downloads', () => {
+  const modules = async (hash: string): Promise<string[]> => {
+    const context = await browser.newContext();
+    page = await context.newPage();
+    const asked: string[] = [];
+    context.on('request', (request) => {
+      const module = /(pillowmesh\w*)-[^/]*\.wasm$/.exec(request.url())?.[1];
+      if (module) asked.push(module);
+    });
+    await page.goto(site.address + hash);
+    const cells = await fact('Cells');
+    await expect.poll(() => cells.innerText(), { timeout: 20_000 }).toMatch(/\d/);
+    return asked;
+  };
+
+  test('is no code for hexahedra, when the mesh is of quadrilaterals', async () => {
+    expect(await modules('#case=iso2d')).toEqual(['pillowmesh']);
+  });
+
+  test('is the code for hexahedra, once the mesh turns out to be of them', async () => {
+    expect(await modules('#case=linear3d')).toEqual(['pillowmesh', 'pillowmesh3d']);
+  });
+});
+
 describe('mishaps', () => {
   test('a missing core is told, with a way to try again', async () => {
     const without = await serveSite((path) => path.endsWith('.wasm'));

@@ -173,13 +173,6 @@ MeshInput<Dim> to_mesh_input(FileMesh& file, Elements<Cell<Dim>::corners>& cells
   return input;
 }
 
-template <int Dim>
-Expected<AnyMesh> build(MeshInput<Dim> input, std::string_view name) {
-  auto mesh = make_mesh<Dim>(std::move(input));
-  if (mesh) return AnyMesh(std::move(*mesh));
-  return Status{mesh.status().code, std::string(name) + ": " + mesh.status().message};
-}
-
 }  // namespace
 
 void add_foreign(FileMesh& mesh, std::string_view what, std::int64_t line) {
@@ -191,7 +184,7 @@ void add_foreign(FileMesh& mesh, std::string_view what, std::int64_t line) {
   mesh.foreign.push_back({std::string(what), 1, line});
 }
 
-Expected<AnyMesh> finish(FileMesh file, std::string_view name) {
+Expected<AnyInput> finish(FileMesh file, std::string_view name) {
   if (Status s = check_kinds(file, name); !s.ok()) return s;
   if (Status s = check_coordinates(file, name); !s.ok()) return s;
   if (Status s = check_vertices(file, file.quads, "quad", name); !s.ok()) return s;
@@ -207,9 +200,9 @@ Expected<AnyMesh> finish(FileMesh file, std::string_view name) {
     if (r < 0 || r >= line_count)
       return Status::bad_input(place(name, 0) + "ridge " + std::to_string(std::int64_t{r} + 1) +
                                " names an edge that does not exist");
-  if (!file.hexes.vertices.empty()) return build(to_mesh_input<3>(file, file.hexes, file.quads), name);
+  if (!file.hexes.vertices.empty()) return AnyInput(to_mesh_input<3>(file, file.hexes, file.quads));
   if (Status s = check_planar(file, name); !s.ok()) return s;
-  return build(to_mesh_input<2>(file, file.quads, file.lines), name);
+  return AnyInput(to_mesh_input<2>(file, file.quads, file.lines));
 }
 
 std::vector<Index> distinct_tags(const std::vector<Group>& groups) {

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "pillowmesh/io/io.h"
 #include "pillowmesh/mesh/boundary.h"
-#include "pillowmesh/mesh/primitives.h"
 
 namespace pillowmesh {
 
@@ -59,10 +59,10 @@ void add_foreign(FileMesh& mesh, std::string_view what, std::int64_t line);
 /// Corner bits of the k-th vertex in the files' order; its own inverse.
 inline constexpr std::array<int, 8> kFileOrder{0, 1, 3, 2, 4, 5, 7, 6};
 
-/// Checks what the file says (only quads or only hexahedra; existing, distinct and finite vertices; a planar 2D mesh)
-/// and builds the mesh. Hexahedra make it 3D, with the quads as boundary facets; else quads make it 2D, with the lines
+/// Checks what the file says: only quads or only hexahedra; existing, distinct and finite vertices; a planar 2D mesh.
+/// Hexahedra make it 3D, with the quads as boundary facets; else quads make it 2D, with the lines
 /// as boundary facets. `name` is the file's, for messages.
-Expected<AnyMesh> finish(FileMesh file, std::string_view name);
+Expected<AnyInput> finish(FileMesh file, std::string_view name);
 
 /// Distinct positive numbers for the groups of one dimension, for files that know groups by number: the group's own
 /// tag where it is free; 0 for the group that has neither tag nor name.

@@ -1,6 +1,7 @@
 #include "pillowmesh/io/io.h"
 
 #include <utility>
+#include <variant>
 
 #include "pillowmesh/io/file_mesh.h"
 #include "pillowmesh/io/gmsh.h"
@@ -44,7 +45,7 @@ std::string unknown_ending(std::string_view name) {
 
 }  // namespace
 
-Expected<AnyMesh> read_mesh(std::string_view name, std::span<const char> bytes) {
+Expected<AnyInput> read_input(std::string_view name, std::span<const char> bytes) {
   const Format format = format_of(name);
   if (format == Format::unknown) return Status::bad_input(unknown_ending(name));
   if (bytes.empty()) return Status::bad_input(std::string(name) + ": the file is empty");
@@ -73,6 +74,12 @@ Expected<AnyMesh> read_mesh(std::string_view name, std::span<const char> bytes) 
   return finish(std::move(mesh), name);
 }
 
+Expected<AnyMesh> read_mesh(std::string_view name, std::span<const char> bytes) {
+  auto input = read_input(name, bytes);
+  if (!input) return input.status();
+  return std::visit([&](auto& i) { return make_any_mesh(std::move(i), name); }, *input);
+}
+
 Status check_writable(std::string_view name, const WriteOptions& options) {
   const Format format = format_of(name);
   if (format == Format::unknown) return Status::usage(unknown_ending(name));
@@ -83,10 +90,11 @@ Status check_writable(std::string_view name, const WriteOptions& options) {
   return {};
 }
 
+namespace {
+
+/// \pre check_writable
 template <int Dim>
-Status write_mesh_to(Sink& sink, const Mesh<Dim>& mesh, std::string_view name, const WriteOptions& options) {
-  if (Status s = check_writable(name, options); !s.ok()) return s;
-  MeshInput<Dim> input = to_input(mesh);
+void write_to(Sink& sink, MeshInput<Dim> input, std::string_view name, const WriteOptions& options) {
   sort_groups(input);
   switch (format_of(name)) {
     case Format::medit:
@@ -107,7 +115,23 @@ Status write_mesh_to(Sink& sink, const Mesh<Dim>& mesh, std::string_view name, c
     case Format::unknown:
       break;
   }
+}
+
+}  // namespace
+
+template <int Dim>
+Status write_mesh_to(Sink& sink, const Mesh<Dim>& mesh, std::string_view name, const WriteOptions& options) {
+  if (Status s = check_writable(name, options); !s.ok()) return s;
+  write_to(sink, to_input(mesh), name, options);
   return {};
+}
+
+template <int Dim>
+Expected<std::string> write_input(MeshInput<Dim> input, std::string_view name, const WriteOptions& options) {
+  if (Status s = check_writable(name, options); !s.ok()) return s;
+  Sink sink;
+  write_to(sink, std::move(input), name, options);
+  return sink.take();
 }
 
 template <int Dim>
@@ -121,6 +145,8 @@ Expected<std::string> write_mesh(const AnyMesh& mesh, std::string_view name, con
   return std::visit([&](const auto& m) { return write_mesh(m, name, options); }, mesh);
 }
 
+template Expected<std::string> write_input(MeshInput<2>, std::string_view, const WriteOptions&);
+template Expected<std::string> write_input(MeshInput<3>, std::string_view, const WriteOptions&);
 template Status write_mesh_to(Sink&, const Mesh<2>&, std::string_view, const WriteOptions&);
 template Status write_mesh_to(Sink&, const Mesh<3>&, std::string_view, const WriteOptions&);
 template Expected<std::string> write_mesh(const Mesh<2>&, std::string_view, const WriteOptions&);

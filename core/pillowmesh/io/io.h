@@ -4,7 +4,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 
+#include "pillowmesh/mesh/any_mesh.h"
 #include "pillowmesh/mesh/primitives.h"
 #include "pillowmesh/mesh/status.h"
 
@@ -18,6 +20,12 @@ class Sink;  // io/sink.h
 /// \return bad_input: one sentence with file, line or cell, and reason. Memory: a multiple of the size of the file,
 /// whatever its header promises.
 Expected<AnyMesh> read_mesh(std::string_view name, std::span<const char> bytes);
+
+/// Both, whatever the dimensions of this build: files are read and written without knowing what becomes of the mesh.
+using AnyInput = std::variant<MeshInput<2>, MeshInput<3>>;
+/// The first half of read_mesh: all that the file says. make_mesh is the second.
+Expected<AnyInput> read_input(std::string_view name, std::span<const char> bytes);
+
 /// Reads a mesh from a file.
 Expected<AnyMesh> read_mesh_file(const std::string& path);
 
@@ -30,6 +38,10 @@ struct WriteOptions {
 
 /// usage when no mesh can be written by that name with these options: unknown ending, .mesh as binary, ...
 Status check_writable(std::string_view name, const WriteOptions& options = {});
+
+/// The second half of write_mesh; to_input is the first.
+template <int Dim>
+Expected<std::string> write_input(MeshInput<Dim> input, std::string_view name, const WriteOptions& options = {});
 
 /// Writes piece by piece, so that memory does not grow by the size of the file.
 template <int Dim>

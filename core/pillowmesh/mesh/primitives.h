@@ -3,15 +3,12 @@
 
 #include <array>
 #include <string_view>
-#include <variant>
 
+#include "pillowmesh/mesh/any_mesh.h"
 #include "pillowmesh/mesh/mesh.h"
 #include "pillowmesh/mesh/status.h"
 
 namespace pillowmesh {
-
-/// A mesh whose dimension is known when the program runs.
-using AnyMesh = std::variant<Mesh<2>, Mesh<3>>;
 
 /// Axis-aligned box of n[0] x n[1] (x n[2]) equal cells from `low` to `high`. Each side is a patch of its own, in the
 /// order of Cell<Dim>'s facets, named xmin, xmax, ymin, ymax, zmin, zmax.

@@ -90,7 +90,11 @@ Expected<AnyMesh> grid_from(const Form& form, const Numbers& numbers) {
     high[d] = numbers.sizes[2 * d + 1];
     if (!(low[d] < high[d])) return mistake(form, "bounds come in pairs low,high with low < high");
   }
-  return AnyMesh(make_grid<Dim>(n, low, high));
+  if constexpr (kHasDimension<Dim>) {
+    return AnyMesh(make_grid<Dim>(n, low, high));
+  } else {
+    return other_dimension<Dim>();
+  }
 }
 
 /// The condition on the sizes of a section, or "" where it holds.
@@ -111,9 +115,13 @@ MeshInput<2> section_of(const std::string& name, int n, int m, double a, double 
 
 template <int Dim>
 Expected<AnyMesh> finish(MeshInput<Dim> input) {
-  auto mesh = make_section(std::move(input));
-  if (!mesh) return Status::usage("the sizes are out of proportion: " + mesh.status().message);
-  return AnyMesh(std::move(*mesh));
+  if constexpr (kHasDimension<Dim>) {
+    auto mesh = make_section(std::move(input));
+    if (!mesh) return Status::usage("the sizes are out of proportion: " + mesh.status().message);
+    return AnyMesh(std::move(*mesh));
+  } else {
+    return other_dimension<Dim>();
+  }
 }
 
 }  // namespace

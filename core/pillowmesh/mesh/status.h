@@ -10,11 +10,12 @@ namespace pillowmesh {
 /// The first four are the exit status of the command as well.
 enum class StatusCode : int {
   ok = 0,
-  limit_not_met = 1,  ///< finished with a valid mesh, but a requested limit was not met
-  usage = 2,          ///< the call itself is wrong: unknown option, malformed formula
-  bad_input = 3,      ///< a file, mesh or field that cannot be used
-  cancelled = 4,      ///< stopped on request; what is there is valid
-  illegal = 5,        ///< an operator refused; the mesh is unchanged
+  limit_not_met = 1,    ///< finished with a valid mesh, but a requested limit was not met
+  usage = 2,            ///< the call itself is wrong: unknown option, malformed formula
+  bad_input = 3,        ///< a file, mesh or field that cannot be used
+  cancelled = 4,        ///< stopped on request; what is there is valid
+  illegal = 5,          ///< an operator refused; the mesh is unchanged
+  other_dimension = 6,  ///< nothing wrong, but this build leaves the mesh's dimension out (mesh/any_mesh.h)
 };
 
 /// Outcome of a fallible call. `message` is one sentence, empty when ok.

@@ -4,7 +4,9 @@ import type { MeshEvent } from '../../../wasm/events.ts';
 import type { CrashError } from '../../../wasm/loader.ts';
 import type { CallName, Calls, RunResult } from '../../../wasm/protocol.ts';
 import type { MeshArrays, MeshSource, MetricSpec } from '../../../wasm/session.ts';
-import coreUrl from '../../../build/wasm/pillowmesh.wasm?url';
+import planeUrl from '../../../build/wasm/pillowmesh.wasm?url';
+import solidUrl from '../../../build/wasm/pillowmesh3d.wasm?url';
+import filesUrl from '../../../build/wasm/pillowmesh_files.wasm?url';
 
 export class Workshop {
   /** Called with the events of the present run. */
@@ -72,7 +74,9 @@ export class Workshop {
 
   private connect(): Client {
     const worker = new Worker(new URL('../../../wasm/worker.ts', import.meta.url), { type: 'module' });
-    const client = new Client(worker, new URL(coreUrl, location.href).href, () => this.dimension);
+    const at = (url: string): string => new URL(url, location.href).href;
+    const modules = { 2: at(planeUrl), 3: at(solidUrl), files: at(filesUrl) };
+    const client = new Client(worker, modules, () => this.dimension);
     client.onEvents = (events, run) => {
       if (run === this.run) this.onEvents(events);
     };
