@@ -4,7 +4,7 @@
 
 #include "pillowmesh/mesh/jacobian.h"
 #include "pillowmesh/mesh/slide.h"
-#include "pillowmesh/refine/untangle.h"
+#include "pillowmesh/refine/make_room.h"
 
 namespace pillowmesh {
 namespace {
@@ -46,7 +46,7 @@ class Inserter {
 
   Inserter(Mesh<Dim>& mesh, PillowWorkspace<Dim>& work, BufferLayer<Dim>& layer)
       : mesh_(mesh), hull_(work.hull), plan_(work.plan), touched_(work.touched), layer_(layer), sides_(work.sides),
-        old_vertex_cell_(work.old_vertex_cell), movable_(work.movable), floor_(work.quality_floor) {}
+        old_vertex_cell_(work.old_vertex_cell), floor_(work.quality_floor) {}
 
   /// What lies across each side of each new cell, decided while the old adjacency still stands.
   void find_side_neighbours() {
@@ -206,18 +206,7 @@ class Inserter {
     return true;
   }
 
-  /// Untangles with more and more freedom: the new vertices; the hull's as well; all of the cells concerned.
-  bool make_room() {
-    movable_.clear();
-    for (VertexId v = layer_.first_vertex; v < mesh_.vertex_count(); ++v) movable_.push_back(v);
-    if (untangle<Dim>(mesh_, movable_) && positive()) return true;
-    for (const VertexId v : hull_.vertices) remember(v);
-    if (untangle<Dim>(mesh_, movable_) && positive()) return true;
-    for (const CellId c : layer_.changed)
-      for (const VertexId v : mesh_.cells[c])
-        if (std::find(movable_.begin(), movable_.end(), v) == movable_.end()) remember(v);
-    return untangle<Dim>(mesh_, movable_, 200) && positive();
-  }
+  bool make_room() { return pillowmesh::make_room(mesh_, hull_, floor_, layer_) && positive(); }
 
   void undo() {
     for (std::size_t i = 0; i < layer_.moved.size(); ++i) {
@@ -269,13 +258,6 @@ class Inserter {
 
   [[nodiscard]] bool good(CellId c) const {
     return floor_ > 0 ? min_scaled_jacobian(mesh_, c) > floor_ : min_corner_jacobian(mesh_, c) > 0;
-  }
-
-  void remember(VertexId v) {
-    movable_.push_back(v);
-    layer_.moved.push_back(v);
-    layer_.old_points.push_back(mesh_.points[v]);
-    layer_.old_anchors.push_back(mesh_.anchor[v]);
   }
 
   /// 3D: around an edge across which the shrink set is joined, the partner is found through the outside; at a boundary
@@ -339,16 +321,13 @@ class Inserter {
   BufferLayer<Dim>& layer_;
   std::vector<Side>& sides_;
   std::vector<CellId>& old_vertex_cell_;
-  std::vector<VertexId>& movable_;
   double floor_;
 };
 
-}  // namespace
-
 template <int Dim>
-Status insert_buffer_layer(Mesh<Dim>& mesh, std::span<const CellId> shrink_set,
-                           std::span<const HalfFacetId> boundary_hull, PillowWorkspace<Dim>& work,
-                           BufferLayer<Dim>& layer) {
+Status try_to_insert(Mesh<Dim>& mesh, std::span<const CellId> shrink_set,
+                     std::span<const HalfFacetId> boundary_hull, PillowWorkspace<Dim>& work, BufferLayer<Dim>& layer) {
+  work.plan.parting.clear();
   find_hull(mesh, shrink_set, boundary_hull, work.hull);
   Status status;
   if (work.hull.facets.empty()) status = Status::illegal("the shrink set is the whole mesh: it has no hull");
@@ -376,6 +355,26 @@ Status insert_buffer_layer(Mesh<Dim>& mesh, std::span<const CellId> shrink_set,
     status = Status::illegal("no position of the new vertices keeps all corner Jacobians positive");
   }
   clear_hull(shrink_set, work.hull);
+  return status;
+}
+
+}  // namespace
+
+template <int Dim>
+Status insert_buffer_layer(Mesh<Dim>& mesh, std::span<const CellId> shrink_set,
+                           std::span<const HalfFacetId> boundary_hull, PillowWorkspace<Dim>& work,
+                           BufferLayer<Dim>& layer) {
+  layer.added.clear();
+  Status status = try_to_insert(mesh, shrink_set, boundary_hull, work, layer);
+  if (status.ok() || work.plan.parting.empty()) return status;
+  // Cells are added where the set touches itself, until it does not or has more than doubled.
+  work.set.assign(shrink_set.begin(), shrink_set.end());
+  const std::size_t most = 2 * shrink_set.size() + 2;
+  while (!status.ok() && !work.plan.parting.empty() && work.set.size() + work.plan.parting.size() <= most) {
+    work.set.insert(work.set.end(), work.plan.parting.begin(), work.plan.parting.end());
+    status = try_to_insert<Dim>(mesh, work.set, boundary_hull, work, layer);
+  }
+  layer.added.assign(work.set.begin() + static_cast<std::ptrdiff_t>(shrink_set.size()), work.set.end());
   return status;
 }
 

@@ -13,6 +13,8 @@ template <int Dim>
 struct BufferLayer {
   VertexId first_vertex = 0;
   std::vector<VertexId> origins;  ///< per new vertex: the hull vertex that it is a copy of
+  /// Cells that were added to the shrink set, where it touched itself in a way that no layer can be wrapped around.
+  std::vector<CellId> added;
   CellId first_cell = 0;          ///< cell first_cell + i was extruded from hull facet i
   Index cell_count = 0;
   /// Cells whose corners were renamed, and what they were.
@@ -42,9 +44,9 @@ struct PillowWorkspace {
   Hull<Dim> hull;
   CopyPlan<Dim> plan;
   std::vector<CellId> touched;
+  std::vector<CellId> set;
   std::vector<NewCellSide> sides;
   std::vector<CellId> old_vertex_cell;
-  std::vector<VertexId> movable;
 };
 
 /// Inserts a buffer layer around `shrink_set` (live cells, each once). The new layer has thickness from the start.

@@ -73,6 +73,25 @@ int hull_facets_in(const Mesh<3>&, const Hull<3>& hull, const EdgeRing& ring) {
   return count;
 }
 
+void shortest_run_outside(const Hull<3>& hull, const EdgeRing& ring, std::vector<CellId>& run) {
+  run.clear();
+  const std::size_t n = ring.cells.size();
+  std::size_t first = 0;  // a cell inside: no run is cut in two there
+  while (first < n && !hull.in_set[ring.cells[first].cell]) ++first;
+  std::vector<CellId> now;
+  for (std::size_t i = 1; i <= n; ++i) {
+    const CellId c = ring.cells[(first + i) % n].cell;
+    if (!hull.in_set[c]) {
+      now.push_back(c);
+      continue;
+    }
+    if (now.empty()) continue;
+    std::sort(now.begin(), now.end());
+    if (run.empty() || now.size() < run.size() || (now.size() == run.size() && now[0] < run[0])) run = now;
+    now.clear();
+  }
+}
+
 bool joins_inside(const Mesh<3>& mesh, const Hull<3>& hull, VertexId a, VertexId b, const EdgeRing& ring) {
   return inside_connected_at(mesh, hull, a, ring) && inside_connected_at(mesh, hull, b, ring);
 }

@@ -24,6 +24,9 @@ int hull_facets_in(const Mesh<3>& mesh, const Hull<3>& hull, const EdgeRing& rin
 /// component at both ends already.
 bool joins_inside(const Mesh<3>& mesh, const Hull<3>& hull, VertexId a, VertexId b, const EdgeRing& ring);
 
+/// The shortest run of cells outside the shrink set around a pinched edge; of equally long ones that with the lowest cell.
+void shortest_run_outside(const Hull<3>& hull, const EdgeRing& ring, std::vector<CellId>& run);
+
 /// Calls visit(w, join inside, ring) for each pinched interior edge (v, w). Cost: none to speak of at the usual vertices,
 /// where the hull facets are a single fan.
 template <class Visit>

@@ -5,99 +5,247 @@
 
 #include "pillowmesh/mesh/jacobian.h"
 #include "pillowmesh/mesh/slide.h"
+#include "pillowmesh/refine/untangle_energy.h"
 
 namespace pillowmesh {
 namespace {
 
-/// Value and gradient at one vertex, and the lowest corner Jacobian met.
-template <int Dim>
-struct Sample {
-  double value = 0.0;
-  double lowest = INFINITY;
-  Point<Dim> gradient = Point<Dim>::Zero();
-};
+constexpr int memory = 10;          ///< steps that the descent direction remembers
+constexpr int most_rounds = 40;     ///< values of eps
+constexpr int steps_per_round = 30;
 
 template <int Dim>
-Point<Dim> cofactor(const std::array<Point<Dim>, Dim>& e, int j);
-template <>
-Point<2> cofactor<2>(const std::array<Point<2>, 2>& e, int j) {
-  return j == 0 ? Point<2>(e[1][1], -e[1][0]) : Point<2>(-e[0][1], e[0][0]);
-}
-template <>
-Point<3> cofactor<3>(const std::array<Point<3>, 3>& e, int j) {
-  return vector_product(e[(j + 1) % 3], e[(j + 2) % 3]);
-}
+class Untangler {
+ public:
+  Untangler(Mesh<Dim>& mesh, const TangledPatch<Dim>& patch, double floor)
+      : mesh_(mesh), patch_(patch), floor_(floor), energy_(mesh, patch), n_(patch.free.size()) {}
 
-template <int Dim>
-Sample<Dim> sample(const Mesh<Dim>& mesh, const std::vector<CellCorner>& star, double delta) {
-  using C = Cell<Dim>;
-  Sample<Dim> s;
-  std::array<Point<Dim>, Dim> e;
-  for (const auto& [c, at] : star)
-    for (int j = -1; j < Dim; ++j) {  // the corner at v, and those at the far ends of its edges
-      const int k = j < 0 ? at : at ^ (1 << j);
-      double T = 0.0;
-      for (int d = 0; d < Dim; ++d) {
-        e[d] = mesh.points[mesh.cells[c][k ^ (1 << d)]] - mesh.points[mesh.cells[c][k]];
-        T += e[d].squaredNorm();
+  bool run() {
+    PatchEnergy now = energy_.evaluate(1.0, nullptr);
+    double eps = std::max(0.05, now.lowest < 0 ? -now.lowest : 0.0);
+    int stuck = 0;
+    for (int round = 0; round < most_rounds; ++round) {
+      const double before = energy_.evaluate(eps, nullptr).value;
+      now = descend(eps);
+      if (now.lowest > 0) {
+        const Verdict verdict = judge();
+        if (verdict == Verdict::good) return true;
+        if (verdict == Verdict::inverted_inside && !energy_.looks_inside()) {
+          energy_.look_inside();
+          now = energy_.evaluate(1.0, nullptr);
+          eps = std::max(0.05, now.lowest < 0 ? -now.lowest : 0.0);
+          continue;
+        }
       }
-      const int sign = C::corner_sign(k);
-      const double d = sign * cofactor<Dim>(e, 0).dot(e[0]);
-      const double root = std::sqrt(d * d + 4 * delta * delta);
-      const double chi = 0.5 * (d + root);
-      const double power = Dim == 2 ? T : T * std::sqrt(T), slope = Dim == 2 ? 1.0 : 1.5 * std::sqrt(T);
-      s.value += power / chi;
-      s.lowest = std::min(s.lowest, d);
-      Point<Dim> dT = Point<Dim>::Zero(), dd = Point<Dim>::Zero();
-      for (int i = 0; i < Dim; ++i) {
-        const double moves = j < 0 ? -1.0 : (i == j ? 1.0 : 0.0);
-        dT += 2.0 * moves * e[i];
-        dd += (moves * sign) * cofactor<Dim>(e, i);
-      }
-      s.gradient += slope / chi * dT - power / (chi * root) * dd;  // d chi / d d = chi / root
+      // The next eps: such that the lowest chi falls by as much as the energy did, a tenth at least.
+      const double decrease = std::max(1.0 - now.value / before, 0.1);
+      const double root = std::sqrt(now.lowest * now.lowest + eps * eps);
+      const double chi = now.lowest > 0 ? 0.5 * (now.lowest + root) : 0.5 * eps * eps / (root - now.lowest);
+      const double mu = (1.0 - decrease) * chi;
+      eps = mu > now.lowest ? std::max(1e-9, 2.0 * std::sqrt(mu * (mu - now.lowest))) : 1e-9;
+      stuck = 1.0 - now.value / before < 1e-3 ? stuck + 1 : 0;
+      if (stuck == 3 && eps < 1e-3) return false;
     }
-  return s;
-}
+    return false;
+  }
+
+ private:
+  enum class Verdict { good, inverted, inverted_inside, below_floor };
+
+  Verdict judge() const {
+    Verdict verdict = Verdict::good;
+    for (std::size_t i = 0; i < patch_.cells.size(); ++i) {
+      const CellId c = patch_.cells[i];
+      if (!(min_corner_jacobian(mesh_, c) > 0)) return Verdict::inverted;
+      if (!(min_scaled_jacobian(mesh_, c) > floor_)) verdict = Verdict::below_floor;
+      if constexpr (Dim == 3) {
+        CellShape<Dim> shape;
+        for (int k = 0; k < Cell<Dim>::corners; ++k) shape[k] = mesh_.points[mesh_.cells[c][k]];
+        if (!(lowest_jacobian<Dim>(shape) > 0) && lowest_jacobian<Dim>(patch_.shapes[i]) > 0)
+          return Verdict::inverted_inside;
+      }
+    }
+    return verdict;
+  }
+
+  /// L-BFGS in coordinates that are scaled by the size of the cells around each vertex.
+  PatchEnergy descend(double eps) {
+    history_.clear();
+    PatchEnergy now = energy_.evaluate(eps, &gradient_);
+    to_tangent();
+    double recent = now.value;
+    for (int step = 0; step < steps_per_round; ++step) {
+      find_direction();
+      if (!line_search(eps, now)) {
+        if (history_.empty()) break;
+        history_.clear();
+        continue;
+      }
+      if (step % 5 == 4) {
+        if (now.value > (1 - 1e-3) * recent) break;
+        recent = now.value;
+      }
+    }
+    return now;
+  }
+
+  /// Scales the gradient, and takes off what points out of a boundary vertex's curve or patch.
+  void to_tangent() {
+    const Geometry<Dim>& g = *mesh_.geometry;
+    for (std::size_t i = 0; i < n_; ++i) {
+      const VertexId v = patch_.free[i];
+      Point<Dim>& slope = gradient_[i];
+      slope *= energy_.size(i);
+      const VertexSupport support = mesh_.support[v];
+      if (support.dim == Dim) continue;
+      const Index at = mesh_.anchor[v];
+      if (support.dim == 1) {
+        const Point<Dim> along = Dim == 2 ? Point<Dim>(g.points[g.facets[at][1]] - g.points[g.facets[at][0]])
+                                          : Point<Dim>(g.points[g.segments[at][1]] - g.points[g.segments[at][0]]);
+        slope = (slope.dot(along) / along.squaredNorm()) * along;
+      } else if constexpr (Dim == 3) {
+        const auto& f = g.facets[at];
+        const Point<3> normal = vector_product(g.points[f[3]] - g.points[f[0]], g.points[f[2]] - g.points[f[1]]);
+        slope -= (slope.dot(normal) / normal.squaredNorm()) * normal;
+      }
+    }
+  }
+
+  double inner(const std::vector<Point<Dim>>& a, const std::vector<Point<Dim>>& b) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < n_; ++i) sum += a[i].dot(b[i]);
+    return sum;
+  }
+
+  void find_direction() {
+    direction_ = gradient_;
+    std::array<double, memory> alpha{};
+    for (std::size_t k = history_.size(); k-- > 0;) {
+      alpha[k] = inner(history_[k].move, direction_) / history_[k].product;
+      for (std::size_t i = 0; i < n_; ++i) direction_[i] -= alpha[k] * history_[k].turn[i];
+    }
+    if (!history_.empty()) {
+      const auto& last = history_.back();
+      const double scale = last.product / inner(last.turn, last.turn);
+      for (std::size_t i = 0; i < n_; ++i) direction_[i] *= scale;
+    }
+    for (std::size_t k = 0; k < history_.size(); ++k) {
+      const double beta = inner(history_[k].turn, direction_) / history_[k].product;
+      for (std::size_t i = 0; i < n_; ++i) direction_[i] += (alpha[k] - beta) * history_[k].move[i];
+    }
+  }
+
+  /// Steps along -direction_ until the energy has fallen enough. False if it does not.
+  bool line_search(double eps, PatchEnergy& now) {
+    double longest = 0.0, slope = inner(gradient_, direction_);
+    if (!(slope > 0)) return false;
+    for (std::size_t i = 0; i < n_; ++i) longest = std::max(longest, direction_[i].squaredNorm());
+    longest = std::sqrt(longest);
+    // No vertex by more than its cells' size; without a memory a tenth of that.
+    const double most = history_.empty() ? 0.1 : 0.7;
+    double t = history_.empty() ? most / longest : std::min(1.0, most / longest);
+    from_.resize(n_);
+    anchors_.resize(n_);
+    for (std::size_t i = 0; i < n_; ++i) {
+      from_[i] = mesh_.points[patch_.free[i]];
+      anchors_[i] = mesh_.anchor[patch_.free[i]];
+    }
+    old_gradient_ = gradient_;
+    for (int attempt = 0; attempt < 15; ++attempt) {
+      move_.resize(n_);
+      for (std::size_t i = 0; i < n_; ++i) {
+        const VertexId v = patch_.free[i];
+        mesh_.anchor[v] = anchors_[i];
+        mesh_.points[v] = slide(*mesh_.geometry, mesh_.support[v], mesh_.anchor[v],
+                                Point<Dim>(from_[i] - (t * energy_.size(i)) * direction_[i]));
+        move_[i] = (mesh_.points[v] - from_[i]) / energy_.size(i);
+      }
+      const PatchEnergy there = energy_.evaluate(eps, &gradient_);
+      if (there.value < now.value - 1e-4 * t * slope) {
+        now = there;
+        to_tangent();
+        remember();
+        return true;
+      }
+      // The lowest point of the parabola through both values and the slope.
+      const double bend = 2 * (there.value - now.value + t * slope);
+      const double best = bend > 0 ? slope * t / bend : 0.5;
+      t *= std::min(std::max(best, 0.1), 0.5);
+    }
+    for (std::size_t i = 0; i < n_; ++i) {
+      mesh_.points[patch_.free[i]] = from_[i];
+      mesh_.anchor[patch_.free[i]] = anchors_[i];
+    }
+    gradient_ = old_gradient_;
+    return false;
+  }
+
+  void remember() {
+    for (std::size_t i = 0; i < n_; ++i) old_gradient_[i] = gradient_[i] - old_gradient_[i];
+    const double product = inner(move_, old_gradient_);
+    if (!(product > 1e-12 * std::sqrt(inner(move_, move_) * inner(old_gradient_, old_gradient_)))) return;
+    if (history_.size() == memory) {
+      std::rotate(history_.begin(), history_.begin() + 1, history_.end());
+      history_.pop_back();
+    }
+    history_.push_back({move_, old_gradient_, product});
+  }
+
+  struct Step {
+    std::vector<Point<Dim>> move, turn;  ///< of the position and of the gradient
+    double product;
+  };
+
+  Mesh<Dim>& mesh_;
+  const TangledPatch<Dim>& patch_;
+  double floor_;
+  UntangleEnergy<Dim> energy_;
+  std::size_t n_;
+  std::vector<Point<Dim>> gradient_, old_gradient_, direction_, move_, from_;
+  std::vector<Index> anchors_;
+  std::vector<Step> history_;
+};
 
 }  // namespace
 
 template <int Dim>
-bool untangle(Mesh<Dim>& mesh, std::span<const VertexId> vertices, int sweeps) {
+void extend(TangledPatch<Dim>& patch, const Mesh<Dim>& mesh, std::span<const VertexId> vertices) {
+  std::vector<VertexId> fresh;
+  for (const VertexId v : vertices)
+    if (mesh.support[v].dim > 0 && !std::binary_search(patch.free.begin(), patch.free.end(), v)) fresh.push_back(v);
+  std::sort(fresh.begin(), fresh.end());
+  fresh.erase(std::unique(fresh.begin(), fresh.end()), fresh.end());
   std::vector<CellCorner> star;
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    bool tangled = false;
-    for (const VertexId v : vertices) {
-      if (mesh.support[v].dim == 0) continue;
-      vertex_star(mesh, v, star);
-      double reach2 = 0.0;
-      for (const auto& [c, k] : star)
-        for (int d = 0; d < Dim; ++d)
-          reach2 = std::max(reach2, (mesh.points[mesh.cells[c][k ^ (1 << d)]] - mesh.points[v]).squaredNorm());
-      const double reach = std::sqrt(reach2), unit = Dim == 2 ? reach2 : reach2 * reach;
-      const double lowest = sample(mesh, star, unit).lowest;
-      tangled = tangled || !(lowest > 0);
-      const double delta = std::max(1e-6 * unit, lowest < 0 ? -0.2 * lowest : 0.0);
-      const Sample<Dim> now = sample(mesh, star, delta);
-      const double steepness = std::sqrt(now.gradient.squaredNorm());
-      if (!(steepness > 0)) continue;
-      const Point<Dim> from = mesh.points[v];
-      const Index anchor = mesh.anchor[v];
-      double step = 0.3 * reach;
-      for (int attempt = 0; attempt < 8; ++attempt, step *= 0.5) {
-        mesh.anchor[v] = anchor;
-        mesh.points[v] = slide(*mesh.geometry, mesh.support[v], mesh.anchor[v],
-                               Point<Dim>(from - (step / steepness) * now.gradient));
-        if (sample(mesh, star, delta).value < now.value) break;
-        mesh.points[v] = from;
-        mesh.anchor[v] = anchor;
-      }
-    }
-    if (!tangled && sweep > 2) return true;  // a few more sweeps give some room
+  std::vector<CellId> cells;
+  for (const VertexId v : fresh) {
+    vertex_star(mesh, v, star);
+    for (const CellCorner& at : star)
+      if (!std::binary_search(patch.known.begin(), patch.known.end(), at.cell)) cells.push_back(at.cell);
   }
-  return false;
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  for (const CellId c : cells) {
+    patch.cells.push_back(c);
+    auto& shape = patch.shapes.emplace_back();
+    for (int k = 0; k < Cell<Dim>::corners; ++k) shape[k] = mesh.points[mesh.cells[c][k]];
+  }
+  const auto merge = [](std::vector<Index>& into, const std::vector<Index>& more) {
+    const auto middle = static_cast<std::ptrdiff_t>(into.size());
+    into.insert(into.end(), more.begin(), more.end());
+    std::inplace_merge(into.begin(), into.begin() + middle, into.end());
+  };
+  merge(patch.known, cells);
+  merge(patch.free, fresh);
 }
 
-template bool untangle(Mesh<2>&, std::span<const VertexId>, int);
-template bool untangle(Mesh<3>&, std::span<const VertexId>, int);
+template <int Dim>
+bool untangle(Mesh<Dim>& mesh, const TangledPatch<Dim>& patch, double floor) {
+  return Untangler<Dim>(mesh, patch, floor).run();
+}
+
+template void extend(TangledPatch<2>&, const Mesh<2>&, std::span<const VertexId>);
+template void extend(TangledPatch<3>&, const Mesh<3>&, std::span<const VertexId>);
+template bool untangle(Mesh<2>&, const TangledPatch<2>&, double);
+template bool untangle(Mesh<3>&, const TangledPatch<3>&, double);
 
 }  // namespace pillowmesh

@@ -32,7 +32,9 @@ class VertexPlanner {
 
   Status run(VertexId v) {
     vertex_star(mesh_, v, star_);
-    find_components(v);
+    if (!find_components(v))
+      return Status::illegal("the shrink set touches itself at an edge of vertex " + std::to_string(v) +
+                             " where neither it nor the rest can be joined");
     // A boundary facet that is hull leaves v to the (empty) outside.
     bool kept = boundary_hull_at();
     for (int i = 0; i < static_cast<int>(star_.size()); ++i) {
@@ -48,11 +50,13 @@ class VertexPlanner {
   }
 
  private:
-  void find_components(VertexId v) {
+  /// False if the runs of one side at a pinched edge cannot be kept apart.
+  bool find_components(VertexId v) {
     const int n = static_cast<int>(star_.size());
     component_.resize(n);
     for (int i = 0; i < n; ++i) component_[i] = i;
     int hull_facets = 0;
+    plan_.pinched_here = false;
     for (int i = 0; i < n; ++i) {
       const auto [c, corner] = star_[i];
       for (int axis = 0; axis < Dim; ++axis) {
@@ -78,10 +82,36 @@ class VertexPlanner {
           if (first >= 0) unite(component_, first, at);
           first = at;
         }
+        plan_.pinched_here = true;
         if (join_inside) plan_.joined_inside.push_back({std::min(v, w), std::max(v, w)});
       });
     }
     for (int i = 0; i < n; ++i) component_[i] = find_root(component_, i);
+    bool apart = true;
+    if constexpr (Dim == 3) {
+      if (plan_.pinched_here)
+        pinched_edges_at(mesh_, hull_, v, star_, [&](VertexId, bool join_inside, const EdgeRing& ring) {
+          if (!apart || runs_apart(!join_inside, ring)) return;
+          apart = false;
+          shortest_run_outside(hull_, ring, plan_.parting);
+        });
+    }
+    return apart;
+  }
+
+  /// True if the runs of cells of one side around an edge are of different components at the vertex.
+  bool runs_apart(bool inside, const EdgeRing& ring) const {
+    const std::size_t n = ring.cells.size();
+    plan_.runs.clear();
+    for (std::size_t i = 0; i < n; ++i) {
+      if ((hull_.in_set[ring.cells[i].cell] != 0) != inside) continue;
+      const CellId before = ring.cells[(i + n - 1) % n].cell;
+      if ((hull_.in_set[before] != 0) == inside) continue;  // not the first of its run
+      const int c = component_[position_of(ring.cells[i].cell)];
+      if (std::find(plan_.runs.begin(), plan_.runs.end(), c) != plan_.runs.end()) return false;
+      plan_.runs.push_back(c);
+    }
+    return true;
   }
 
   void unite_side(bool inside) {
@@ -301,6 +331,7 @@ Status plan_copies(const Mesh<Dim>& mesh, const Hull<Dim>& hull, double shrink, 
   plan.changes.clear();
   plan.copies.clear();
   plan.joined_inside.clear();
+  plan.parting.clear();
   VertexPlanner<Dim> planner(mesh, hull, shrink, plan);
   for (const VertexId v : hull.vertices)
     if (Status s = planner.run(v); !s.ok()) return s;

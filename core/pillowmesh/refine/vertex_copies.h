@@ -31,11 +31,16 @@ struct CopyPlan {
   std::vector<VertexCopy<Dim>> copies;  ///< numbered from mesh.vertex_count() on
   /// 3D: edges where four or more hull facets meet and the shrink set is joined across (else the outside is).
   std::vector<std::array<VertexId, 2>> joined_inside;
+  /// 3D, after a refusal for that reason: the cells outside that part the set from itself at an edge where neither side
+  /// can be joined. With them in the set it no longer touches itself there. Else empty.
+  std::vector<CellId> parting;
   // Buffers of one vertex at a time.
   std::vector<CellCorner> star;
   std::vector<int> component;
   std::vector<VertexId> on_hull;
   std::vector<Point<Dim>> normals;
+  std::vector<int> runs;
+  bool pinched_here = false;
 };
 
 /// Decides the copies of every hull vertex v. Around v the shrink set S and the outside O fall into components, the fans
@@ -47,8 +52,10 @@ struct CopyPlan {
 ///      S | O
 ///
 /// In 3D this is decided per edge (pinched: four or more hull facets): O is joined across it or, where the S runs are one
-/// component at both its ends, S is. `shrink` scales how far the copies move: 1 = a third of the way across.
-/// \return illegal when a copy would have to leave the boundary. Changes nothing but `plan`.
+/// component at both its ends, S is. The runs of the other side then need different copies at both ends: were they one
+/// component at v, two facets between new cells would share the edge vw and the edge from v to its copy, and the cells
+/// between them would have no angle left. `shrink` scales how far the copies move: 1 = a third of the way across.
+/// \return illegal when that cannot be had, or a copy would have to leave the boundary. Changes nothing but `plan`.
 template <int Dim>
 Status plan_copies(const Mesh<Dim>& mesh, const Hull<Dim>& hull, double shrink, CopyPlan<Dim>& plan);
 
