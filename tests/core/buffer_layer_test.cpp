@@ -106,7 +106,7 @@ TEST_CASE("random layers on quad meshes stay valid and keep the Euler number") {
 TEST_CASE("random layers on hex meshes stay valid and keep the Euler number") {
   for (const auto& [name, mesh] : corpus::meshes<3>()) {
     INFO(name);
-    CHECK(insert_at_random(mesh, 60, 8, 5, true) >= 0.88);
-    CHECK(insert_at_random(mesh, 20, 25, 6, true) >= 0.4);  // large random sets have hulls that no position untangles
+    CHECK(insert_at_random(mesh, 60, 8, 5, true) >= 0.95);
+    CHECK(insert_at_random(mesh, 20, 25, 6, true) >= 0.95);
   }
 }

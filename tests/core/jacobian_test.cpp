@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "../catch.h"
+#include "meshes.h"
+#include "pillowmesh/mesh/jacobian.h"
 #include "pillowmesh/mesh/primitives.h"
 #include "pillowmesh/quality/valence.h"
 
@@ -36,4 +38,16 @@ TEST_CASE("a collapsed edge gives zero") {
   Mesh<2> mesh = make_grid<2>({1, 1}, Point<2>(0, 0), Point<2>(1, 1));
   mesh.points[1] = mesh.points[0];
   CHECK(scaled_jacobian(mesh, 0) == 0.0);
+}
+
+TEST_CASE("the lowest Jacobian on the lattice is that of its 27 points one by one") {
+  const auto mesh = corpus::shaken(make_grid<3>({4, 4, 4}, Point<3>(0, 0, 0), Point<3>(4, 4, 4)), 1.0, 0.5, 3);
+  for (CellId c = 0; c < mesh.cell_count(); ++c) {
+    const auto position = [&](int k) -> const Point<3>& { return mesh.points[mesh.cells[c][k]]; };
+    double lowest = jacobian_at({0, 0, 0}, position);
+    for (int i = 0; i < 27; ++i)
+      lowest = std::min(lowest, jacobian_at({0.5 * (i % 3), 0.5 * (i / 3 % 3), 0.5 * (i / 9)}, position));
+    CHECK(min_lattice_jacobian(position) == Approx(lowest).margin(1e-12));
+    CHECK(min_lattice_jacobian(position) <= min_corner_jacobian(mesh, c));
+  }
 }

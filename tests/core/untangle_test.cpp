@@ -1,5 +1,8 @@
 #include "pillowmesh/refine/untangle.h"
 
+#include <algorithm>
+#include <set>
+
 #include "../catch.h"
 #include "checks.h"
 #include "meshes.h"
@@ -17,6 +20,14 @@ std::vector<VertexId> inner_vertices(const Mesh<Dim>& mesh) {
   return inner;
 }
 
+/// `mesh` with `vertices` free; its cells are to have the form that they have in `wanted`.
+template <int Dim>
+bool untangle(Mesh<Dim>& mesh, const Mesh<Dim>& wanted, const std::vector<VertexId>& vertices) {
+  TangledPatch<Dim> patch;
+  extend<Dim>(patch, wanted, vertices);
+  return untangle<Dim>(mesh, patch);
+}
+
 template <int Dim>
 bool positive(const Mesh<Dim>& mesh) {
   for (CellId c = 0; c < mesh.cell_count(); ++c)
@@ -28,25 +39,28 @@ bool positive(const Mesh<Dim>& mesh) {
 
 TEST_CASE("vertices that were thrown about are brought back to where no cell is inside out") {
   for (const unsigned seed : {1u, 2u, 3u, 4u}) {
-    auto quads = corpus::shaken(make_grid<2>({5, 5}, Point<2>(0, 0), Point<2>(5, 5)), 1.0, 0.9, seed);
+    const auto squares = make_grid<2>({5, 5}, Point<2>(0, 0), Point<2>(5, 5));
+    auto quads = corpus::shaken(squares, 1.0, 0.9, seed);
     REQUIRE_FALSE(positive(quads));
-    CHECK(untangle<2>(quads, inner_vertices(quads)));
+    CHECK(untangle(quads, squares, inner_vertices(quads)));
     CHECK(validate(quads).message == "");
-    auto hexes = corpus::shaken(make_grid<3>({4, 4, 4}, Point<3>(0, 0, 0), Point<3>(4, 4, 4)), 1.0, 0.6, seed);
+    const auto cubes = make_grid<3>({4, 4, 4}, Point<3>(0, 0, 0), Point<3>(4, 4, 4));
+    auto hexes = corpus::shaken(cubes, 1.0, 0.9, seed);
     REQUIRE_FALSE(positive(hexes));
-    CHECK(untangle<3>(hexes, inner_vertices(hexes)));
+    CHECK(untangle(hexes, cubes, inner_vertices(hexes)));
     CHECK(validate(hexes).message == "");
+    CHECK(find_inside_defects(hexes).empty());
   }
 }
 
 TEST_CASE("only the vertices named move, and boundary vertices along their side") {
-  auto mesh = make_grid<2>({4, 4}, Point<2>(0, 0), Point<2>(4, 4));
+  const auto squares = make_grid<2>({4, 4}, Point<2>(0, 0), Point<2>(4, 4));
+  auto mesh = squares;
   // Vertex 6 is pushed across the side of the square, its neighbour 1 on that side past the one after it.
   mesh.points[6] = Point<2>(2.5, 0.6);
   mesh.points[1] = Point<2>(1.9, 0.0);
   const auto before = mesh;
-  const std::vector<VertexId> free{1, 6};
-  CHECK(untangle<2>(mesh, free));
+  CHECK(untangle(mesh, squares, {1, 6}));
   CHECK(positive(mesh));
   for (VertexId v = 0; v < mesh.vertex_count(); ++v)
     if (v != 1 && v != 6) CHECK(mesh.points[v] == before.points[v]);
@@ -56,15 +70,59 @@ TEST_CASE("only the vertices named move, and boundary vertices along their side"
 
 TEST_CASE("what cannot be untangled is reported") {
   // The middle vertex of a 2 x 2 grid is free, but a corner of its frame has been pushed beyond the opposite one.
-  auto mesh = make_grid<2>({2, 2}, Point<2>(0, 0), Point<2>(2, 2));
+  const auto squares = make_grid<2>({2, 2}, Point<2>(0, 0), Point<2>(2, 2));
+  auto mesh = squares;
   mesh.points[0] = Point<2>(3, 3);
-  CHECK_FALSE(untangle<2>(mesh, std::vector<VertexId>{4}));
+  CHECK_FALSE(untangle(mesh, squares, {4}));
 }
 
 TEST_CASE("a corner of the domain stays even if it is named") {
-  auto mesh = make_grid<2>({2, 2}, Point<2>(0, 0), Point<2>(2, 2));
+  const auto squares = make_grid<2>({2, 2}, Point<2>(0, 0), Point<2>(2, 2));
+  auto mesh = squares;
   mesh.points[4] = Point<2>(-0.5, -0.5);
-  CHECK(untangle<2>(mesh, std::vector<VertexId>{0, 4}));
+  CHECK(untangle(mesh, squares, {0, 4}));
   CHECK(mesh.points[0] == Point<2>(0, 0));
   CHECK(positive(mesh));
+}
+
+TEST_CASE("hexes that are inverted inside only are put right too") {
+  const auto cubes = make_grid<3>({3, 3, 3}, Point<3>(0, 0, 0), Point<3>(3, 3, 3));
+  int found = 0;
+  for (unsigned seed = 1; seed < 3000 && found < 5; ++seed) {
+    auto mesh = corpus::shaken(cubes, 1.0, 0.7, seed);
+    if (!positive(mesh) || find_inside_defects(mesh).empty()) continue;
+    ++found;
+    INFO("seed " << seed);
+    CHECK(untangle(mesh, cubes, inner_vertices(mesh)));
+    CHECK(validate(mesh).message == "");
+    CHECK(find_inside_defects(mesh).empty());
+  }
+  CHECK(found > 0);
+}
+
+TEST_CASE("cells keep their stretching where there is room for it") {
+  // A slab of hexes 100 times as wide as thick, one vertex pushed through the slab's top layer.
+  const auto slab = make_grid<3>({4, 4, 4}, Point<3>(0, 0, 0), Point<3>(4, 4, 0.04));
+  auto mesh = slab;
+  const VertexId v = 62;  // the middle: (2, 2, 0.02)
+  REQUIRE((mesh.points[v] - Point<3>(2, 2, 0.02)).norm() < 1e-12);
+  mesh.points[v][2] = 0.035;
+  REQUIRE_FALSE(positive(mesh));
+  CHECK(untangle(mesh, slab, {v}));
+  CHECK((mesh.points[v] - slab.points[v]).norm() < 0.01);
+}
+
+TEST_CASE("a patch has every cell at its free vertices once, each in the form from before it was touched") {
+  const auto cubes = make_grid<3>({4, 4, 4}, Point<3>(0, 0, 0), Point<3>(4, 4, 4));
+  TangledPatch<3> patch;
+  extend<3>(patch, cubes, std::vector<VertexId>{62, 62, 0});  // the middle, twice, and a corner of the domain
+  CHECK(patch.free == std::vector<VertexId>{62});
+  CHECK(patch.cells.size() == 8);
+  extend<3>(patch, cubes, std::vector<VertexId>{61, 62, 63});
+  CHECK(patch.free == std::vector<VertexId>{61, 62, 63});
+  CHECK(patch.cells.size() == 16);
+  CHECK(std::is_sorted(patch.known.begin(), patch.known.end()));
+  CHECK(std::set<CellId>(patch.cells.begin(), patch.cells.end()).size() == 16);
+  for (std::size_t i = 0; i < patch.cells.size(); ++i)
+    for (int k = 0; k < 8; ++k) CHECK(patch.shapes[i][k] == cubes.points[cubes.cells[patch.cells[i]][k]]);
 }

@@ -126,5 +126,5 @@ TEST_CASE("two hexes that share only an edge are one component where they are jo
       CHECK(p.copies_of(v) == 2);
     }
   CHECK(shared == 2);
-  CHECK(p.plan.joined_inside.empty());
+  CHECK(p.plan.kept_inside.empty());
 }

@@ -30,10 +30,9 @@ double corner_jacobian(int k, Position&& position) {
     return Cell<3>::corner_sign(k) * triple(e[0], e[1], e[2]);
 }
 
-/// The smallest of the corner Jacobians of cell c. Positive in every valid mesh.
-template <int Dim>
-double min_corner_jacobian(const Mesh<Dim>& mesh, CellId c) {
-  const auto position = [&](int i) -> const Point<Dim>& { return mesh.points[mesh.cells[c][i]]; };
+/// The smallest of the corner Jacobians of a cell. Positive in every valid mesh.
+template <int Dim, class Position>
+double min_corner_jacobian(Position&& position) {
   double lowest = corner_jacobian<Dim>(0, position);
   for (int k = 1; k < Cell<Dim>::corners; ++k) {
     const double j = corner_jacobian<Dim>(k, position);
@@ -42,10 +41,14 @@ double min_corner_jacobian(const Mesh<Dim>& mesh, CellId c) {
   return lowest;
 }
 
-/// The smallest of the corner Jacobians of cell c, each divided by the lengths of its edges: 1 for a box, 0 degenerate.
 template <int Dim>
-double min_scaled_jacobian(const Mesh<Dim>& mesh, CellId c) {
-  const auto position = [&](int i) -> const Point<Dim>& { return mesh.points[mesh.cells[c][i]]; };
+double min_corner_jacobian(const Mesh<Dim>& mesh, CellId c) {
+  return min_corner_jacobian<Dim>([&](int i) -> const Point<Dim>& { return mesh.points[mesh.cells[c][i]]; });
+}
+
+/// The smallest of the corner Jacobians of a cell, each divided by the lengths of its edges: 1 for a box, 0 degenerate.
+template <int Dim, class Position>
+double min_scaled_jacobian(Position&& position) {
   double lowest = 1.0;
   for (int k = 0; k < Cell<Dim>::corners; ++k) {
     double lengths2 = 1.0;
@@ -54,6 +57,11 @@ double min_scaled_jacobian(const Mesh<Dim>& mesh, CellId c) {
     if (!(j >= lowest)) lowest = j;
   }
   return lowest;
+}
+
+template <int Dim>
+double min_scaled_jacobian(const Mesh<Dim>& mesh, CellId c) {
+  return min_scaled_jacobian<Dim>([&](int i) -> const Point<Dim>& { return mesh.points[mesh.cells[c][i]]; });
 }
 
 /// Jacobian determinant of the trilinear map of a hexahedron at local coordinates `at`, each 0 to 1.
@@ -72,6 +80,33 @@ double jacobian_at(const std::array<double, 3>& at, Position&& position) {
     }
   }
   return triple(along[0], along[1], along[2]);
+}
+
+/// The lowest Jacobian determinant of the trilinear map of a hexahedron at the lattice of 3 x 3 x 3 points whose local
+/// coordinates are 0, 1/2 or 1. Not above the lowest of the corners, and nearly the lowest of all.
+template <class Position>
+double min_lattice_jacobian(Position&& position) {
+  using C = Cell<3>;
+  // Per axis, the derivative along it at the 3 x 3 places in the plane of the other two: it is constant along the axis.
+  std::array<std::array<Point<3>, 9>, 3> along;
+  for (int axis = 0; axis < 3; ++axis) {
+    auto& at = along[axis];
+    for (int k = 0; k < C::edges_per_axis; ++k) {
+      const int from = C::insert_bit(k, axis);
+      at[2 * (k & 1) + 6 * (k >> 1)] = position(from | 1 << axis) - position(from);
+    }
+    at[1] = 0.5 * (at[0] + at[2]);
+    at[7] = 0.5 * (at[6] + at[8]);
+    for (int i = 0; i < 3; ++i) at[3 + i] = 0.5 * (at[i] + at[6 + i]);
+  }
+  double lowest = triple(along[0][0], along[1][0], along[2][0]);
+  for (int z = 0; z < 3; ++z)
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < 3; ++x) {
+        const double d = triple(along[0][y + 3 * z], along[1][x + 3 * z], along[2][x + 3 * y]);
+        if (!(d >= lowest)) lowest = d;
+      }
+  return lowest;
 }
 
 }  // namespace pillowmesh

@@ -9,36 +9,6 @@
 namespace pillowmesh {
 namespace {
 
-/// The hull facet, boundary facet or nothing at the end of a run of cells around a codimension-2 entity.
-struct RunEnd {
-  CellId cell;
-  int facet;    ///< where the run ends: a hull or boundary facet of `cell`
-  int entered;  ///< the other facet of `cell` at the entity
-};
-
-/// Walks from cell c, leaving through facet `leave`, around the entity in which the two facets `from` and `leave` of c
-/// meet, as long as `same_side(cell)` holds.
-template <int Dim, class SameSide>
-RunEnd walk_run(const Mesh<Dim>& mesh, CellId c, int from, int leave, SameSide&& same_side) {
-  // The entity by its vertices: one in 2D, two in 3D.
-  const int corner = (Cell<Dim>::facet_side(from) << Cell<Dim>::facet_axis(from)) |
-                     (Cell<Dim>::facet_side(leave) << Cell<Dim>::facet_axis(leave));
-  const VertexId a = mesh.cells[c][corner];
-  VertexId b = a;
-  if constexpr (Dim == 3) b = mesh.cells[c][corner | (1 << (3 - Cell<3>::facet_axis(from) - Cell<3>::facet_axis(leave)))];
-  int entered = from;
-  while (true) {
-    const HalfFacetId twin = mesh.twins[c][leave];
-    if (twin < 0 || !same_side(mesh.cell_of(twin))) return {c, leave, entered};
-    c = mesh.cell_of(twin);
-    entered = mesh.facet_of(twin);
-    const int ka = corner_of(mesh, c, a), kb = Dim == 3 ? corner_of(mesh, c, b) : ka;
-    for (int axis = 0; axis < Dim; ++axis)
-      if (axis != Cell<Dim>::facet_axis(entered) && (((ka ^ kb) >> axis) & 1) == 0)
-        leave = Cell<Dim>::facet(axis, (ka >> axis) & 1);
-  }
-}
-
 template <int Dim>
 class Inserter {
  public:
@@ -47,27 +17,6 @@ class Inserter {
   Inserter(Mesh<Dim>& mesh, PillowWorkspace<Dim>& work, BufferLayer<Dim>& layer)
       : mesh_(mesh), hull_(work.hull), plan_(work.plan), touched_(work.touched), layer_(layer), sides_(work.sides),
         old_vertex_cell_(work.old_vertex_cell), floor_(work.quality_floor) {}
-
-  /// What lies across each side of each new cell, decided while the old adjacency still stands.
-  void find_side_neighbours() {
-    sides_.clear();
-    const auto inside = [&](CellId n) { return hull_.in_set[n] != 0; };
-    for (const auto& h : hull_.facets)
-      for (int g = 0; g < C::facets; ++g) {
-        if (C::facet_axis(g) == C::facet_axis(h.facet)) continue;
-        const RunEnd end = walk_run(mesh_, h.inside, h.facet, g, inside);
-        Side side{kNone, 0, kNone};
-        if (hull_.is_hull(end.cell, end.facet)) {
-          side.hull_cell = end.cell;
-          side.hull_facet = end.facet;
-          side.facet = end.entered;
-          if constexpr (Dim == 3) reconsider(h, g, side);
-        } else {
-          side.patch = mesh_.patch_of(end.cell, end.facet);
-        }
-        sides_.push_back(side);
-      }
-  }
 
   void rename_corners() {
     touched_.clear();
@@ -133,16 +82,14 @@ class Inserter {
       const CellId k = layer_.first_cell + i;
       for (int g = 0; g < C::facets; ++g) {
         if (C::facet_axis(g) == C::facet_axis(h.facet)) continue;
-        const Side& side = sides_[at++];
+        const NewCellSide& side = sides_[at++];
         if (side.hull_cell == kNone) {
           mesh_.twins[k][g] = ~side.patch;
           continue;
         }
         // The inside cell of the partner's hull facet now has the partner itself as its twin there.
         const CellId partner = mesh_.cell_of(mesh_.twins[side.hull_cell][side.hull_facet]);
-        mesh_.twins[k][g] = same_vertices(mesh_.facet_vertices(k, g), mesh_.facet_vertices(partner, side.facet))
-                                ? mesh_.half_facet(partner, side.facet)
-                                : ~side.outside_patch;
+        mesh_.twins[k][g] = mesh_.half_facet(partner, side.facet);
       }
     }
   }
@@ -162,6 +109,9 @@ class Inserter {
     layer_.moved.clear();
     layer_.old_points.clear();
     layer_.old_anchors.clear();
+    layer_.released.clear();
+    layer_.old_supports.clear();
+    layer_.released_anchors.clear();
   }
 
   bool conforming() const {
@@ -170,48 +120,53 @@ class Inserter {
     return true;
   }
 
+  /// All cells with new corners are valid. Those at vertices that made way have been looked at when they did.
   bool positive() const {
-    for (const CellId c : layer_.changed)
-      if (!(good(c))) return false;
     for (CellId k = layer_.first_cell; k < mesh_.cell_count(); ++k)
-      if (!(good(k))) return false;
-    for (const VertexId v : layer_.moved) {
-      vertex_star(mesh_, v, plan_.star);
-      for (const auto& [c, corner] : plan_.star)
-        if (!(good(c))) return false;
-    }
+      if (!good(mesh_.cells[k])) return false;
+    for (std::size_t i = 0; i < layer_.changed.size(); ++i)
+      if (!good(mesh_.cells[layer_.changed[i]], &layer_.old_corners[i])) return false;
     return true;
   }
 
-  /// Vertices of the hull must still be on the boundary entities that they are classified on, now that the new cells have
-  /// brought new boundary facets. A copy that has come to lie on the boundary learns so; it starts at its origin.
+  /// Boundary vertices take the support that their boundary facets ask for, now that the new cells have brought theirs. A
+  /// vertex that the outside keeps may have come off the boundary, or to slide where its copy takes its place on the
+  /// curve or corner; a copy that has come to lie on the boundary starts at its origin. False if no entity fits.
   bool supports_hold() {
     for (const VertexId v : hull_.vertices) {
       VertexSupport found;
-      if (!support_from_facets(v, found)) return false;
-      if (mesh_.support[v].dim != 0 && !(found == mesh_.support[v])) return false;
-      if (mesh_.support[v].dim == 0 && found.dim == Dim) return false;
+      if (!support_from_facets(v, v, found)) return false;
+      const VertexSupport now = mesh_.support[v];
+      if (found == now || (now.dim == 0 && found.dim < Dim)) continue;
+      if (found.dim < now.dim) return false;
+      release(v, found);
+      if (mesh_.anchor[v] == kNone && found.dim < Dim) return false;
     }
     for (std::size_t i = 0; i < layer_.origins.size(); ++i) {
-      const VertexId v = layer_.first_vertex + static_cast<VertexId>(i);
+      const VertexId v = layer_.first_vertex + static_cast<VertexId>(i), origin = layer_.origins[i];
       VertexSupport found;
-      if (!support_from_facets(v, found) || found.dim == 0) return false;
-      if (found == mesh_.support[v]) continue;
-      const VertexId origin = layer_.origins[i];
+      if (!support_from_facets(v, origin, found)) return false;
+      if (found.dim == 0 && !leaves_corner(origin)) return false;
+      if (found == mesh_.support[v] && found.dim > 0) continue;
+      const Point<Dim> start = mesh_.points[origin];
+      mesh_.anchor[v] = anchor_on(mesh_, found, origin, start);
       mesh_.support[v] = found;
-      mesh_.anchor[v] = anchor_on(mesh_, found, origin, mesh_.points[origin]);
-      mesh_.points[v] = mesh_.points[origin];
-      if (mesh_.anchor[v] == kNone && found.dim < Dim) return false;
+      mesh_.points[v] = start;
+      if (mesh_.anchor[v] == kNone && found.dim > 0 && found.dim < Dim) return false;
     }
     return true;
   }
 
-  bool make_room() { return pillowmesh::make_room(mesh_, hull_, floor_, layer_) && positive(); }
+  bool make_room() { return pillowmesh::make_room(mesh_, hull_, floor_, layer_); }
 
   void undo() {
     for (std::size_t i = 0; i < layer_.moved.size(); ++i) {
       mesh_.points[layer_.moved[i]] = layer_.old_points[i];
       mesh_.anchor[layer_.moved[i]] = layer_.old_anchors[i];
+    }
+    for (std::size_t i = 0; i < layer_.released.size(); ++i) {
+      mesh_.support[layer_.released[i]] = layer_.old_supports[i];
+      mesh_.anchor[layer_.released[i]] = layer_.released_anchors[i];
     }
     forget_moves();
     for (std::size_t i = 0; i < layer_.changed.size(); ++i) {
@@ -229,10 +184,27 @@ class Inserter {
   }
 
  private:
-  using Side = NewCellSide;
+  /// Gives vertex v of the outside another support than it had.
+  void release(VertexId v, VertexSupport support) {
+    layer_.released.push_back(v);
+    layer_.old_supports.push_back(mesh_.support[v]);
+    layer_.released_anchors.push_back(mesh_.anchor[v]);
+    mesh_.anchor[v] = anchor_on(mesh_, support, v, mesh_.points[v]);
+    mesh_.support[v] = support;
+  }
 
-  /// The support that the boundary facets at v ask for. False when no entity of the domain fits.
-  bool support_from_facets(VertexId v, VertexSupport& support) {
+  /// Lets a vertex leave the corner of the domain that it is on, for a copy. False if the outside needs the corner too.
+  bool leaves_corner(VertexId origin) {
+    if (mesh_.support[origin].dim != 0) return false;
+    VertexSupport found;
+    if (!support_from_facets(origin, origin, found) || found.dim == 0) return false;
+    release(origin, found);
+    return found.dim == Dim || mesh_.anchor[origin] != kNone;
+  }
+
+  /// The support that the boundary facets at v ask for; v is `origin` or a copy of it. False when no entity of the
+  /// domain fits.
+  bool support_from_facets(VertexId v, VertexId origin, VertexSupport& support) {
     vertex_star(mesh_, v, plan_.star);
     std::array<PatchId, 3> patch{};
     int patches = 0;
@@ -242,53 +214,38 @@ class Inserter {
         if (!mesh_.on_boundary(c, f)) continue;
         const PatchId p = mesh_.patch_of(c, f);
         if (std::find(patch.begin(), patch.begin() + patches, p) != patch.begin() + patches) continue;
-        if (patches == 3) return mesh_.support[v].dim == 0;
+        if (patches == 3) break;
         patch[patches++] = p;
       }
     support = patches == 0 ? VertexSupport{Dim, kNone} : VertexSupport{Dim - 1, patch[0]};
     if (patches < 2) return true;
+    const VertexSupport before = old_support(origin);
     support = {0, kNone};
-    if (Dim == 2 || patches == 3 || mesh_.support[v].dim == 0) return true;
-    if (mesh_.support[v].dim != 1) return false;
-    const auto& pair = mesh_.geometry->curve_patches[mesh_.support[v].entity];
-    if (pair[0] != std::min(patch[0], patch[1]) || pair[1] != std::max(patch[0], patch[1])) return false;
-    support = mesh_.support[v];
-    return true;
-  }
-
-  [[nodiscard]] bool good(CellId c) const {
-    return floor_ > 0 ? min_scaled_jacobian(mesh_, c) > floor_ : min_corner_jacobian(mesh_, c) > 0;
-  }
-
-  /// 3D: around an edge across which the shrink set is joined, the partner is found through the outside; at a boundary
-  /// edge where the shrink set touches the boundary only there, the outside's patch is needed if the two part.
-  void reconsider(const HullFacet<Dim>& h, int g, Side& side) {
-    if constexpr (Dim == 3) {
-      if (h.outside == kNone) return;
-      const int along = 3 - C::facet_axis(h.facet) - C::facet_axis(g);
-      const int corner = (C::facet_side(h.facet) << C::facet_axis(h.facet)) | (C::facet_side(g) << C::facet_axis(g));
-      const VertexId a = mesh_.cells[h.inside][corner], b = mesh_.cells[h.inside][corner | (1 << along)];
-      const int ka = corner_of(mesh_, h.outside, a), kb = corner_of(mesh_, h.outside, b);
-      int leave = 0;
-      for (int axis = 0; axis < 3; ++axis)
-        if (axis != C::facet_axis(h.outside_facet) && (((ka ^ kb) >> axis) & 1) == 0)
-          leave = C::facet(axis, (ka >> axis) & 1);
-      const RunEnd end = walk_run(mesh_, h.outside, h.outside_facet, leave, [&](CellId n) { return !hull_.in_set[n]; });
-      const HalfFacetId twin = mesh_.twins[end.cell][end.facet];
-      if (twin < 0) {
-        side.outside_patch = ~twin;
-        return;
+    if (Dim == 2 || patches == 3) return before.dim == 0;
+    const std::array<PatchId, 2> pair{std::min(patch[0], patch[1]), std::max(patch[0], patch[1])};
+    for (const VertexSupport known : {mesh_.support[v], before})
+      if (known.dim == 1 && mesh_.geometry->curve_patches[known.entity] == pair) {
+        support = known;
+        return true;
       }
-      const std::array<VertexId, 2> key{std::min(a, b), std::max(a, b)};
-      if (!std::binary_search(plan_.joined_inside.begin(), plan_.joined_inside.end(), key)) return;
-      side.hull_cell = mesh_.cell_of(twin);
-      side.hull_facet = mesh_.facet_of(twin);
-      // The partner's side: the other facet of its inside cell at the edge.
-      const int pa = corner_of(mesh_, side.hull_cell, a), pb = corner_of(mesh_, side.hull_cell, b);
-      for (int axis = 0; axis < 3; ++axis)
-        if (axis != C::facet_axis(side.hull_facet) && (((pa ^ pb) >> axis) & 1) == 0)
-          side.facet = C::facet(axis, (pa >> axis) & 1);
+    return before.dim == 0;
+  }
+
+  VertexSupport old_support(VertexId v) const {
+    const auto at = std::find(layer_.released.begin(), layer_.released.end(), v);
+    return at == layer_.released.end() ? mesh_.support[v] : layer_.old_supports[at - layer_.released.begin()];
+  }
+
+  /// Corners as validate wants them and above the floor. In 3D inside too, unless the cell came inverted inside.
+  [[nodiscard]] bool good(const Corners<Dim>& cell, const Corners<Dim>* before = nullptr) const {
+    const auto at = [&](int k) -> const Point<Dim>& { return mesh_.points[cell[k]]; };
+    if (!(floor_ > 0 ? min_scaled_jacobian<Dim>(at) > floor_ : min_corner_jacobian<Dim>(at) > 0)) return false;
+    if constexpr (Dim == 3) {
+      if (min_lattice_jacobian(at) > 0) return true;
+      const auto was = [&](int k) -> const Point<3>& { return mesh_.points[(*before)[k]]; };
+      return before != nullptr && !(min_lattice_jacobian(was) > 0);
     }
+    return true;
   }
 
   static bool same_vertices(FacetCorners<Dim> a, FacetCorners<Dim> b) {
@@ -319,7 +276,7 @@ class Inserter {
   CopyPlan<Dim>& plan_;
   std::vector<CellId>& touched_;
   BufferLayer<Dim>& layer_;
-  std::vector<Side>& sides_;
+  std::vector<NewCellSide>& sides_;
   std::vector<CellId>& old_vertex_cell_;
   double floor_;
 };
@@ -338,7 +295,7 @@ Status try_to_insert(Mesh<Dim>& mesh, std::span<const CellId> shrink_set,
   for (std::size_t attempt = 0; attempt < shrinks.size() && !work.hull.facets.empty(); ++attempt) {
     status = plan_copies(mesh, work.hull, shrinks[attempt], work.plan);
     if (!status.ok()) break;
-    inserter.find_side_neighbours();
+    find_side_partners(mesh, work.hull, work.plan, work.sides);
     inserter.rename_corners();
     inserter.add_vertices();
     inserter.extrude();

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "pillowmesh/refine/vertex_copies.h"
+#include "pillowmesh/refine/side_partners.h"
 
 namespace pillowmesh {
 
@@ -25,15 +25,10 @@ struct BufferLayer {
   std::vector<VertexId> moved;
   std::vector<Point<Dim>> old_points;
   std::vector<Index> old_anchors;
-};
-
-/// Neighbour across a side of a new cell: the new cell of another hull facet, or the boundary.
-struct NewCellSide {
-  CellId hull_cell;   ///< inside cell of the other hull facet; kNone: boundary
-  int hull_facet;
-  PatchId patch;
-  int facet = 0;                  ///< side of the other new cell
-  PatchId outside_patch = kNone;  ///< 3D: taken where the two turn out to have different vertices
+  /// Vertices that a copy has taken the place of on a curve or patch, and how they were classified.
+  std::vector<VertexId> released;
+  std::vector<VertexSupport> old_supports;
+  std::vector<Index> released_anchors;
 };
 
 /// Buffers of the operator, reused from call to call.

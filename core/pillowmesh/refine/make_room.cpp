@@ -30,7 +30,8 @@ CellShape<Dim> part_of(const CellShape<Dim>& shape, const std::array<double, Dim
 }
 
 /// The forms wanted: old cells as they were; a cell of the shrink set as its middle third (or the half away from the
-/// hull); a new cell as the slice of the old inside cell that it takes the place of.
+/// hull); a new cell as the old inside cell: thicker than there is room for, so that it takes what it can get. (With the
+/// slice that it takes the place of, layers come out thinner and more edges need refining again.)
 template <int Dim>
 class WantedShapes {
  public:
@@ -40,7 +41,7 @@ class WantedShapes {
   void set(TangledPatch<Dim>& patch, std::size_t i) const {
     const CellId c = patch.cells[i];
     if (c >= layer_.first_cell)
-      patch.shapes[i] = slice(hull_.facets[c - layer_.first_cell]);
+      patch.shapes[i] = old_shape(hull_.facets[c - layer_.first_cell].inside);
     else if (hull_.in_set[c])
       patch.shapes[i] = shrunk(c);
     else
@@ -64,28 +65,19 @@ class WantedShapes {
     return shape;
   }
 
-  /// Thickness of the new layer at facet f of c, as a share of the cell.
-  double step(CellId c, int f) const { return hull_.is_hull(c, C::opposite_facet(f)) ? 1.0 / 3.0 : 0.5; }
+  /// Share of the cell that the layer at its facet f takes.
+  double step(CellId c, int f) const {
+    if (!hull_.is_hull(c, f)) return 0.0;
+    return hull_.is_hull(c, C::opposite_facet(f)) ? 1.0 / 3.0 : 0.5;
+  }
 
   CellShape<Dim> shrunk(CellId c) const {
     std::array<double, Dim> low, high;
     for (int d = 0; d < Dim; ++d) {
-      low[d] = hull_.is_hull(c, C::facet(d, 0)) ? step(c, C::facet(d, 0)) : 0.0;
-      high[d] = 1.0 - (hull_.is_hull(c, C::facet(d, 1)) ? step(c, C::facet(d, 1)) : 0.0);
+      low[d] = step(c, C::facet(d, 0));
+      high[d] = 1.0 - step(c, C::facet(d, 1));
     }
     return part_of<Dim>(old_shape(c), low, high);
-  }
-
-  CellShape<Dim> slice(const HullFacet<Dim>& h) const {
-    std::array<double, Dim> low, high;
-    low.fill(0.0);
-    high.fill(1.0);
-    const int axis = C::facet_axis(h.facet);
-    if (C::facet_side(h.facet) == 0)
-      high[axis] = step(h.inside, h.facet);
-    else
-      low[axis] = 1.0 - step(h.inside, h.facet);
-    return part_of<Dim>(old_shape(h.inside), low, high);
   }
 
   const Mesh<Dim>& mesh_;

@@ -65,22 +65,27 @@ void edge_ring(const Mesh<3>& mesh, CellEdge edge, EdgeRing& ring) {
   }
 }
 
-int hull_facets_in(const Mesh<3>&, const Hull<3>& hull, const EdgeRing& ring) {
-  int count = 0;
+RunCount count_runs(const Hull<3>& hull, const EdgeRing& ring) {
+  RunCount runs;
   const std::size_t n = ring.cells.size();
-  for (std::size_t i = 0; i + (ring.closed ? 0 : 1) < n; ++i)
-    count += (hull.in_set[ring.cells[i].cell] != 0) != (hull.in_set[ring.cells[(i + 1) % n].cell] != 0);
-  return count;
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool inside = hull.in_set[ring.cells[i].cell] != 0;
+    const bool first = i == 0 && !ring.closed;
+    if (!first && (hull.in_set[ring.cells[(i + n - 1) % n].cell] != 0) == inside) continue;
+    ++(inside ? runs.inside : runs.outside);
+  }
+  return runs;
 }
 
 void shortest_run_outside(const Hull<3>& hull, const EdgeRing& ring, std::vector<CellId>& run) {
   run.clear();
   const std::size_t n = ring.cells.size();
-  std::size_t first = 0;  // a cell inside: no run is cut in two there
+  std::size_t first = 0;  // a cell inside: what lies before it in an open ring is between no two runs
   while (first < n && !hull.in_set[ring.cells[first].cell]) ++first;
   std::vector<CellId> now;
-  for (std::size_t i = 1; i <= n; ++i) {
-    const CellId c = ring.cells[(first + i) % n].cell;
+  for (std::size_t i = first + 1; i < first + n + 1; ++i) {
+    if (i == n && !ring.closed) return;
+    const CellId c = ring.cells[i % n].cell;
     if (!hull.in_set[c]) {
       now.push_back(c);
       continue;
@@ -93,6 +98,7 @@ void shortest_run_outside(const Hull<3>& hull, const EdgeRing& ring, std::vector
 }
 
 bool joins_inside(const Mesh<3>& mesh, const Hull<3>& hull, VertexId a, VertexId b, const EdgeRing& ring) {
+  if (!ring.closed && !hull.in_set[ring.cells.front().cell] && !hull.in_set[ring.cells.back().cell]) return false;
   return inside_connected_at(mesh, hull, a, ring) && inside_connected_at(mesh, hull, b, ring);
 }
 

@@ -1,4 +1,5 @@
-// 3D: edges of the hull where four or more hull facets meet, so that the two sides alternate around them.
+// 3D: edges of the hull around which the two sides alternate: four or more hull facets meet there, two or more at an edge
+// of the domain's boundary.
 #pragma once
 
 #include <algorithm>
@@ -17,17 +18,20 @@ struct EdgeRing {
 /// Collects the ring in order around the edge.
 void edge_ring(const Mesh<3>& mesh, CellEdge edge, EdgeRing& ring);
 
-/// Number of hull facets at the edge of the ring.
-int hull_facets_in(const Mesh<3>& mesh, const Hull<3>& hull, const EdgeRing& ring);
+/// Runs of cells of the shrink set, and of the rest, around the edge.
+struct RunCount {
+  int inside = 0, outside = 0;
+};
+RunCount count_runs(const Hull<3>& hull, const EdgeRing& ring);
 
 /// True if the shrink set, not the outside, is to be joined across a pinched edge (a, b): where its runs are one
-/// component at both ends already.
+/// component at both ends already. What lies beyond the domain's boundary counts as outside.
 bool joins_inside(const Mesh<3>& mesh, const Hull<3>& hull, VertexId a, VertexId b, const EdgeRing& ring);
 
-/// The shortest run of cells outside the shrink set around a pinched edge; of equally long ones that with the lowest cell.
+/// The shortest run of cells outside between runs of the shrink set; of equally long ones that with the lowest cell.
 void shortest_run_outside(const Hull<3>& hull, const EdgeRing& ring, std::vector<CellId>& run);
 
-/// Calls visit(w, join inside, ring) for each pinched interior edge (v, w). Cost: none to speak of at the usual vertices,
+/// Calls visit(w, join inside, ring) for each pinched edge (v, w): one with several runs of either side. Cost: none to speak of at the usual vertices,
 /// where the hull facets are a single fan.
 template <class Visit>
 void pinched_edges_at(const Mesh<3>& mesh, const Hull<3>& hull, VertexId v, const std::vector<CellCorner>& star,
@@ -58,7 +62,9 @@ void pinched_edges_at(const Mesh<3>& mesh, const Hull<3>& hull, VertexId v, cons
       if (hull.slot[w] == kNone || std::find(seen.begin(), seen.end(), w) != seen.end()) continue;
       seen.push_back(w);
       edge_ring(mesh, {c, Cell<3>::edge_at(corner, axis)}, ring);
-      if (ring.closed && hull_facets_in(mesh, hull, ring) >= 4) visit(w, joins_inside(mesh, hull, v, w, ring), ring);
+      const RunCount runs = count_runs(hull, ring);
+      if (runs.inside < 2 && runs.outside < 2) continue;
+      visit(w, runs.inside > 1 && joins_inside(mesh, hull, v, w, ring), ring);
     }
   }
 }

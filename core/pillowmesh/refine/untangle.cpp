@@ -57,12 +57,12 @@ class Untangler {
     for (std::size_t i = 0; i < patch_.cells.size(); ++i) {
       const CellId c = patch_.cells[i];
       if (!(min_corner_jacobian(mesh_, c) > 0)) return Verdict::inverted;
-      if (!(min_scaled_jacobian(mesh_, c) > floor_)) verdict = Verdict::below_floor;
+      const auto form = [&](int k) -> const Point<Dim>& { return patch_.shapes[i][k]; };
+      const double floor = floor_ > 0 ? std::min(floor_, 0.9 * min_scaled_jacobian<Dim>(form)) : 0.0;
+      if (!(min_scaled_jacobian(mesh_, c) > floor)) verdict = Verdict::below_floor;
       if constexpr (Dim == 3) {
-        CellShape<Dim> shape;
-        for (int k = 0; k < Cell<Dim>::corners; ++k) shape[k] = mesh_.points[mesh_.cells[c][k]];
-        if (!(lowest_jacobian<Dim>(shape) > 0) && lowest_jacobian<Dim>(patch_.shapes[i]) > 0)
-          return Verdict::inverted_inside;
+        const auto now = [&](int k) -> const Point<3>& { return mesh_.points[mesh_.cells[c][k]]; };
+        if (!(min_lattice_jacobian(now) > 0) && min_lattice_jacobian(form) > 0) return Verdict::inverted_inside;
       }
     }
     return verdict;

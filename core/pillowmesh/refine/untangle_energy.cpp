@@ -9,7 +9,7 @@ namespace pillowmesh {
 namespace {
 
 /// Weight of the size term against the shape term: enough that no cell shrinks to nothing beside others.
-constexpr double size_weight = 0.3;
+constexpr double size_weight = 0.2;
 
 template <int Dim>
 using EdgeVectors = std::array<Point<Dim>, Cell<Dim>::edges>;
@@ -106,18 +106,6 @@ const SamplePoints<Dim>& sample_points() {
 }
 
 template <int Dim>
-double lowest_jacobian(const CellShape<Dim>& shape) {
-  const auto e = edge_vectors<Dim>([&](int k) -> const Point<Dim>& { return shape[k]; });
-  double lowest = INFINITY;
-  for (int s = 0; s < SamplePoints<Dim>::count; ++s) {
-    const auto A = jacobian<Dim>(e, s);
-    const double d = determinant_of<Dim>(A, cofactor(A));
-    if (!(d >= lowest)) lowest = d;
-  }
-  return lowest;
-}
-
-template <int Dim>
 UntangleEnergy<Dim>::UntangleEnergy(const Mesh<Dim>& mesh, const TangledPatch<Dim>& patch)
     : mesh_(mesh), patch_(patch), slots_(patch.cells.size()),
       to_wanted_(patch.cells.size() * SamplePoints<Dim>::count), size_(patch.free.size(), 0.0) {
@@ -200,7 +188,6 @@ PatchEnergy UntangleEnergy<Dim>::evaluate(double eps, std::vector<Point<Dim>>* g
 
 #define PILLOWMESH_INSTANTIATE(Dim)                      \
   template const SamplePoints<Dim>& sample_points<Dim>(); \
-  template double lowest_jacobian<Dim>(const CellShape<Dim>&); \
   template class UntangleEnergy<Dim>;
 PILLOWMESH_INSTANTIATE(2)
 PILLOWMESH_INSTANTIATE(3)

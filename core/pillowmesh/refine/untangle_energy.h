@@ -48,8 +48,4 @@ class UntangleEnergy {
   std::vector<double> size_;
 };
 
-/// The inner part of the validity test: the lowest Jacobian determinant at the sample points, relative to nothing.
-template <int Dim>
-double lowest_jacobian(const CellShape<Dim>& shape);
-
 }  // namespace pillowmesh

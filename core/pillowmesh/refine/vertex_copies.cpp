@@ -83,7 +83,7 @@ class VertexPlanner {
           first = at;
         }
         plan_.pinched_here = true;
-        if (join_inside) plan_.joined_inside.push_back({std::min(v, w), std::max(v, w)});
+        if (join_inside) plan_.kept_inside.push_back({std::min(v, w), std::max(v, w)});
       });
     }
     for (int i = 0; i < n; ++i) component_[i] = find_root(component_, i);
@@ -105,8 +105,8 @@ class VertexPlanner {
     plan_.runs.clear();
     for (std::size_t i = 0; i < n; ++i) {
       if ((hull_.in_set[ring.cells[i].cell] != 0) != inside) continue;
-      const CellId before = ring.cells[(i + n - 1) % n].cell;
-      if ((hull_.in_set[before] != 0) == inside) continue;  // not the first of its run
+      const bool first = i == 0 && !ring.closed;
+      if (!first && (hull_.in_set[ring.cells[(i + n - 1) % n].cell] != 0) == inside) continue;  // within its run
       const int c = component_[position_of(ring.cells[i].cell)];
       if (std::find(plan_.runs.begin(), plan_.runs.end(), c) != plan_.runs.end()) return false;
       plan_.runs.push_back(c);
@@ -150,7 +150,7 @@ class VertexPlanner {
     made.origin = v;
     made.cell = star_[component].cell;
     if (!find_support(v, component, made.support))
-      return Status::illegal("a corner of the domain would have to be duplicated at vertex " + std::to_string(v));
+      return Status::illegal("a corner or feature of the domain would have to be duplicated at vertex " + std::to_string(v));
     const VertexId id = mesh_.vertex_count() + static_cast<Index>(plan_.copies.size());
     made.position = place(v, component, inside, made.support);
     if (inside) turn_inwards(v, component, made.position);
@@ -167,7 +167,8 @@ class VertexPlanner {
     return {};
   }
 
-  /// The copy's support from the boundary facets of its component. False when it would be a corner of the domain.
+  /// The copy's support from the boundary facets of its component. A corner of the domain can be handed to a copy, if the
+  /// rest lets go of it; that is seen when the new cells are there. False when no entity fits.
   bool find_support(VertexId v, int component, VertexSupport& support) {
     PatchId patch[3];
     int patches = 0;
@@ -178,7 +179,10 @@ class VertexPlanner {
         if (!mesh_.on_boundary(star_[i].cell, f) || hull_.is_hull(star_[i].cell, f)) continue;
         const PatchId p = mesh_.patch_of(star_[i].cell, f);
         if (std::find(patch, patch + patches, p) != patch + patches) continue;
-        if (patches == Dim - 1) return false;
+        if (patches == Dim - 1) {
+          support = {0, kNone};
+          return mesh_.support[v].dim == 0;
+        }
         patch[patches++] = p;
       }
     }
@@ -330,12 +334,12 @@ template <int Dim>
 Status plan_copies(const Mesh<Dim>& mesh, const Hull<Dim>& hull, double shrink, CopyPlan<Dim>& plan) {
   plan.changes.clear();
   plan.copies.clear();
-  plan.joined_inside.clear();
+  plan.kept_inside.clear();
   plan.parting.clear();
   VertexPlanner<Dim> planner(mesh, hull, shrink, plan);
   for (const VertexId v : hull.vertices)
     if (Status s = planner.run(v); !s.ok()) return s;
-  std::sort(plan.joined_inside.begin(), plan.joined_inside.end());
+  std::sort(plan.kept_inside.begin(), plan.kept_inside.end());
   return {};
 }
 

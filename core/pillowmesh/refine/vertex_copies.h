@@ -29,8 +29,9 @@ template <int Dim>
 struct CopyPlan {
   std::vector<CornerChange> changes;
   std::vector<VertexCopy<Dim>> copies;  ///< numbered from mesh.vertex_count() on
-  /// 3D: edges where four or more hull facets meet and the shrink set is joined across (else the outside is).
-  std::vector<std::array<VertexId, 2>> joined_inside;
+  /// 3D, ascending: edges of the hull that the shrink set keeps, joined across them where they are pinched. The outside
+  /// keeps all others.
+  std::vector<std::array<VertexId, 2>> kept_inside;
   /// 3D, after a refusal for that reason: the cells outside that part the set from itself at an edge where neither side
   /// can be joined. With them in the set it no longer touches itself there. Else empty.
   std::vector<CellId> parting;
