@@ -8,7 +8,7 @@
 namespace pillowmesh {
 namespace {
 
-constexpr int most_rings = 4;
+constexpr int most_rings = 2;
 
 /// The box [low, high] in the local coordinates of a cell, as the multilinear map places its corners.
 template <int Dim>

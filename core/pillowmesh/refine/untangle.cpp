@@ -58,8 +58,9 @@ class Untangler {
       const CellId c = patch_.cells[i];
       if (!(min_corner_jacobian(mesh_, c) > 0)) return Verdict::inverted;
       const auto form = [&](int k) -> const Point<Dim>& { return patch_.shapes[i][k]; };
-      const double floor = floor_ > 0 ? std::min(floor_, 0.9 * min_scaled_jacobian<Dim>(form)) : 0.0;
-      if (!(min_scaled_jacobian(mesh_, c) > floor)) verdict = Verdict::below_floor;
+      // Above the floor, or no worse than it came.
+      if (floor_ > 0 && !(min_scaled_jacobian(mesh_, c) > std::min(floor_, min_scaled_jacobian<Dim>(form))))
+        verdict = Verdict::below_floor;
       if constexpr (Dim == 3) {
         const auto now = [&](int k) -> const Point<3>& { return mesh_.points[mesh_.cells[c][k]]; };
         if (!(min_lattice_jacobian(now) > 0) && min_lattice_jacobian(form) > 0) return Verdict::inverted_inside;
@@ -158,6 +159,7 @@ class Untangler {
         mesh_.anchor[v] = anchors_[i];
         mesh_.points[v] = slide(*mesh_.geometry, mesh_.support[v], mesh_.anchor[v],
                                 Point<Dim>(from_[i] - (t * energy_.size(i)) * direction_[i]));
+        if (mesh_.support[v].dim < Dim) keep_off_end(i);
         move_[i] = (mesh_.points[v] - from_[i]) / energy_.size(i);
       }
       const PatchEnergy there = energy_.evaluate(eps, &gradient_);
@@ -178,6 +180,45 @@ class Untangler {
     }
     gradient_ = old_gradient_;
     return false;
+  }
+
+  /// Distance of a boundary vertex from the end of its curve or patch, where that is an end of the piece that it is on.
+  double distance_to_end(VertexId v, const Point<Dim>& at) const {
+    const Geometry<Dim>& g = *mesh_.geometry;
+    const Index piece = mesh_.anchor[v];
+    double nearest2 = INFINITY;
+    const auto consider = [&](Index a, Index b) {
+      const Point<Dim> along = g.points[b] - g.points[a];
+      const double length2 = along.squaredNorm();
+      const double t = length2 > 0 ? along.dot(at - g.points[a]) / length2 : 0.0;
+      nearest2 = std::min(nearest2, (at - g.points[a] - std::min(std::max(t, 0.0), 1.0) * along).squaredNorm());
+    };
+    if (mesh_.support[v].dim == 1) {
+      for (int end = 0; end < 2; ++end) {
+        const Index last = Dim == 2 ? g.facets[piece][end] : g.segments[piece][end];
+        if ((Dim == 2 ? g.neighbours[piece][end] : g.segment_neighbours[piece][end]) == kNone) consider(last, last);
+      }
+    } else {
+      for (int side = 0; side < Geometry<Dim>::facet_sides; ++side)
+        if (g.neighbours[piece][side] == kNone)
+          consider(g.facets[piece][Cell<2>::facet_corner(side, 0)], g.facets[piece][Cell<2>::facet_corner(side, 1)]);
+    }
+    return std::sqrt(nearest2);
+  }
+
+  /// A vertex that has come to the end of its curve stays there, since all slopes at an edge of no length vanish: it is
+  /// not let nearer than a tenth of its cells' size.
+  void keep_off_end(std::size_t i) {
+    const VertexId v = patch_.free[i];
+    const double distance = distance_to_end(v, mesh_.points[v]);
+    if (!(distance < 0.1 * energy_.size(i))) return;
+    mesh_.anchor[v] = anchors_[i];
+    const bool nearer = distance < distance_to_end(v, from_[i]);
+    if (!nearer) {
+      mesh_.points[v] = slide(*mesh_.geometry, mesh_.support[v], mesh_.anchor[v], mesh_.points[v]);
+      return;
+    }
+    mesh_.points[v] = from_[i];
   }
 
   void remember() {
