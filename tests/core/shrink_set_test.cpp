@@ -95,7 +95,7 @@ TEST_CASE("random shrink sets give a valid mesh or leave the mesh untouched, and
   }
 }
 
-TEST_CASE("shrink sets that the vertices one by one could not be untangled around") {
+TEST_CASE("sets on the o-grid that touch themselves so that they have to be enlarged give a valid mesh") {
   const auto mesh = primitive("ogrid:4,2,4:1,0,2");
   PillowWorkspace<3> work;
   BufferLayer<3> layer;
@@ -104,6 +104,7 @@ TEST_CASE("shrink sets that the vertices one by one could not be untangled aroun
     Mesh<3> shrunk = mesh;
     INFO(set[0]);
     REQUIRE(insert_buffer_layer<3>(shrunk, set, {}, work, layer).ok());
+    CHECK(layer.added.size() == 1);
     CHECK(validate(shrunk).message == "");
     CHECK(find_inside_defects(shrunk).empty());
   }
