@@ -37,4 +37,34 @@ void insert_layers(benchmark::State& state) {
 }
 BENCHMARK(insert_layers)->Arg(100)->Arg(400)->Arg(1600)->Unit(benchmark::kMillisecond);
 
+/// The same in 3D: plates of 8 x 8 hexes, in n x n x n cells.
+void insert_plates(benchmark::State& state) {
+  const int n = static_cast<int>(state.range(0)), length = 8;
+  const auto initial = make_grid<3>({n, n, n}, Point<3>(0, 0, 0), Point<3>(1, 1, 1));
+  std::vector<std::vector<CellId>> sets;
+  for (int k = 2; k + 2 < n; k += 4) {
+    for (int j = 2; j + length + 2 < n; j += length + 4) {
+      for (int i = 2; i + length + 2 < n; i += length + 4) {
+        sets.emplace_back();
+        for (int c = 0; c < length * length; ++c)
+          sets.back().push_back((k * n + j + c / length) * n + i + c % length);
+      }
+    }
+  }
+  PillowWorkspace<3> work;
+  BufferLayer<3> layer;
+  std::int64_t cells = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    auto mesh = initial;
+    state.ResumeTiming();
+    for (const auto& set : sets) {
+      if (!insert_buffer_layer<3>(mesh, set, {}, work, layer).ok()) state.SkipWithError("a layer was refused");
+      cells += layer.cell_count;
+    }
+  }
+  state.SetItemsProcessed(cells);
+}
+BENCHMARK(insert_plates)->Arg(16)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
+
 }  // namespace

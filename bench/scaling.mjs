@@ -1,4 +1,5 @@
 // End to end: pillowmesh on case iso2d with sizes divided by 1, 2, 4, ..., layers only (no relocation), single thread.
+// In 3D (--case linear3d) sizes are divided by powers of 2^(2/3), so that rows are as far apart in cells.
 // Prints JSON.
 // Usage: node bench/scaling.mjs [--max-cells N] [--repeat N] [--peers] [--case NAME] [--smooth none|end|between]
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
@@ -39,6 +40,7 @@ function runOwn(scale) {
       best = {
         program: 'pillowmesh',
         scale,
+        dim: found.mesh.dim,
         cells,
         seconds: adapting,
         cells_per_second: cells / adapting,
@@ -67,8 +69,8 @@ function addRatios(rows) {
 await main(() => {
   build('release');
   const rows = [];
-  // Halving the sizes gives about four times the cells: stop before the next would pass the limit by far.
-  for (let scale = 1; rows.length === 0 || rows.at(-1).cells < maxCells / 2; scale /= 2) {
+  // Each step gives about four times the cells: stop before the next would pass the limit by far.
+  for (let scale = 1; rows.length === 0 || rows.at(-1).cells < maxCells / 2; scale /= rows[0].dim === 3 ? 2 ** (2 / 3) : 2) {
     rows.push(runOwn(scale));
     console.error(`${rows.at(-1).cells} cells, ${Math.round(rows.at(-1).cells_per_second)} per second`);
   }
