@@ -53,8 +53,7 @@ TEST_CASE("the derivatives of a star's energy are those of its differences") {
     double gradient, hessian;
   };
   for (const Row& row : {Row{"m11 = 5; m12 = 1; m22 = 3; m13 = -0.5; m23 = 0.4; m33 = 2", 1e-6, 1e-5},
-                         Row{"h = 1 + 0.1*x - 0.05*y + 0.02*z", 0.01, 1.0},
-                         Row{"h = 1 + 0.4*x", 0.05, 1.0},
+                         Row{"h = 1 + 0.1*x - 0.05*y + 0.02*z", 0.01, 1.0}, Row{"h = 1 + 0.4*x", 0.05, 1.0},
                          Row{"h1 = 1; h2 = 0.5; h3 = 0.7; theta = 0.1*z", 0.02, 1.0}}) {
     INFO(row.formula);
     const auto mesh = corpus::shaken(make_grid<3>({2, 2, 2}, Point<3>(0, 0, 0), Point<3>(2, 2, 2)), 1.0, 0.2, 3);

@@ -66,7 +66,8 @@ StarTable::StarTable(const Mesh<3>& mesh) {
         const int next = (j + 1) % 3;
         const std::int16_t a = corner.spoke[j], b = corner.spoke[next];
         std::size_t q = first_facet;
-        while (q < facets_.size() && !(facets_[q].a == a && facets_[q].b == b) && !(facets_[q].a == b && facets_[q].b == a))
+        while (q < facets_.size() && !(facets_[q].a == a && facets_[q].b == b) &&
+               !(facets_[q].a == b && facets_[q].b == a))
           ++q;
         if (q == facets_.size()) facets_.push_back({mesh.cells[c][k ^ (1 << axis[j]) ^ (1 << axis[next])], a, b});
         const auto edge = static_cast<std::int16_t>(2 * (q - first_facet));
@@ -107,7 +108,8 @@ void HexStar::visit(VertexId v) {
   hold();
 }
 
-/// What does not move: the outer edges, by the metric at their ends, and the far corners without their edge to the vertex.
+/// What does not move: the outer edges, by the metric at their ends, and the far corners without their edge to the
+/// vertex.
 void HexStar::hold() {
   for (std::size_t i = 0; i < outer_.size(); ++i) {
     const StarFacet& q = facets_[i / 2];
@@ -134,8 +136,8 @@ void HexStar::hold() {
     }
 }
 
-/// Spokes are measured at their ends and in the middle, and at two points more where the size varies a lot along them: the
-/// energy must agree with its gradient.
+/// Spokes are measured at their ends and in the middle, and at two points more where the size varies a lot along them:
+/// the energy must agree with its gradient.
 void HexStar::look_at(const Point<3>& position) {
   constexpr double varies = 1.25;
   const int count = static_cast<int>(spokes_.size());
@@ -159,11 +161,13 @@ void HexStar::look_at(const Point<3>& position) {
     s.middle = std::sqrt(dot(s.u, s.middle_m));
     s.there = std::sqrt(dot(s.u, s.far_m));
     s.length = 0.5 * (mean_length(s.here, s.middle) + mean_length(s.middle, s.there));
-    const double low = std::min(s.middle, std::min(s.here, s.there)), high = std::max(s.middle, std::max(s.here, s.there));
+    const double low = std::min(s.middle, std::min(s.here, s.there)),
+                 high = std::max(s.middle, std::max(s.here, s.there));
     s.varies = high > varies * low;
     if (!s.varies) continue;
     for (const double share : {0.25, 0.75})
-      sample_points_.emplace_back(position[0] + share * s.u[0], position[1] + share * s.u[1], position[2] + share * s.u[2]);
+      sample_points_.emplace_back(position[0] + share * s.u[0], position[1] + share * s.u[1],
+                                  position[2] + share * s.u[2]);
   }
   if (!sample_points_.empty()) {
     samples_.resize(sample_points_.size());
@@ -331,12 +335,11 @@ void HexStar::add_change_of_metric(Vector& gradient) {
   std::array<double, 6> moments{};  // of the edges, in units of the metric
   for (std::size_t k = 0; k < spokes_.size(); ++k) {
     const Spoke& s = spokes_[k];
-    const double by_far = dot(s.sum.far, s.far) / s.length, by_near = s.sum.length / s.length, by_length = by_far + by_near;
+    const double by_far = dot(s.sum.far, s.far) / s.length, by_near = s.sum.length / s.length,
+                 by_length = by_far + by_near;
     // The gradients above have the ratios fixed: take out their lengths' part, add that of the integrated length.
-    const double near = s.length / s.here;
     add(gradient, by_near / s.here, s.near_m);
     add(gradient, -by_far / s.there, s.far_m);
-    (void)near;
     const auto sample = [&](double weight, double length, double moves, const Vector& m) {
       add(gradient, -by_length * weight / length, m);
       return 0.5 * moves * weight / length;
@@ -373,7 +376,8 @@ void HexStar::add_change_of_metric(Vector& gradient) {
     add(sum, 2.0 * along / (s.here * s.here), s.u);  // the middle is half the edge away
   }
   const auto& [a, b, c, d, e, f] = moments;
-  const std::array<double, 6> cofactor{c * f - e * e, d * e - b * f, a * f - d * d, b * e - c * d, b * d - a * e, a * c - b * b};
+  const std::array<double, 6> cofactor{c * f - e * e, d * e - b * f, a * f - d * d,
+                                       b * e - c * d, b * d - a * e, a * c - b * b};
   const double determinant = a * cofactor[0] + b * cofactor[1] + d * cofactor[3];
   if (!(determinant > 0)) return;
   add(gradient, 1.0 / determinant, times(cofactor, sum));
@@ -386,7 +390,8 @@ bool HexStar::below(double floor) const {
     count += f.d * f.d < squared * spokes_[f.spoke].far2 * outer_[f.outer0].euclid2 * outer_[f.outer1].euclid2;
   const double* d = products_.data() + facets_.size();
   for (const StarCorner& corner : corners_) {
-    count += *d * *d < squared * spokes_[corner.spoke[0]].near2 * spokes_[corner.spoke[1]].near2 * spokes_[corner.spoke[2]].near2;
+    count += *d * *d <
+             squared * spokes_[corner.spoke[0]].near2 * spokes_[corner.spoke[1]].near2 * spokes_[corner.spoke[2]].near2;
     ++d;
   }
   return count > 0;
@@ -395,8 +400,8 @@ bool HexStar::below(double floor) const {
 double HexStar::lowest_scaled_jacobian() const {
   double lowest = 1.0;
   for (const FarCorner& f : far_)
-    lowest = std::min(lowest, f.d / std::sqrt(spokes_[f.spoke].far2 * outer_[f.outer0].euclid2 *
-                                              outer_[f.outer1].euclid2));
+    lowest =
+        std::min(lowest, f.d / std::sqrt(spokes_[f.spoke].far2 * outer_[f.outer0].euclid2 * outer_[f.outer1].euclid2));
   const double* d = products_.data() + facets_.size();
   for (const StarCorner& corner : corners_) {
     double lengths2 = 1.0;

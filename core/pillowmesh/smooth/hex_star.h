@@ -1,10 +1,10 @@
-// The hexahedra at one vertex, as the smoother sees them: their energy (energy.h) and its derivatives with respect to the
-// position of the vertex.
+// The hexahedra at one vertex, as the smoother sees them: their energy (energy.h) and its derivatives with respect to
+// the position of the vertex.
 //
-// Everything is said by Gram matrices G = A' M A of the corners: with the lengths and angles of the edges in the metric,
-// f = tr G + tr G^-1, where tr G^-1 = (sum of the principal 2 x 2 minors of G) / det G and det G = det M d^2. Of a corner at
-// the far end of an edge only that edge e moves; then T = tr G and the sum N of the minors are quadratic in e and d is
-// linear, with coefficients that are found once per visit.
+// Everything is said by Gram matrices G = A' M A of the corners: with the lengths and angles of the edges in the
+// metric, f = tr G + tr G^-1, where tr G^-1 = (sum of the principal 2 x 2 minors of G) / det G and det G = det M d^2.
+// Of a corner at the far end of an edge only that edge e moves; then T = tr G and the sum N of the minors are quadratic
+// in e and d is linear, with coefficients that are found once per visit.
 #pragma once
 
 #include <array>
@@ -27,8 +27,8 @@ struct StarFacet {
   std::int16_t a, b;
 };
 
-/// A cell at a vertex: its three edges there, right-handed, and for each of them, (j), the outer edges that leave its far
-/// end in the facets of the edges (j, j + 1) and (j, j + 2).
+/// A cell at a vertex: its three edges there, right-handed, and for each of them, (j), the outer edges that leave its
+/// far end in the facets of the edges (j, j + 1) and (j, j + 2).
 struct StarCorner {
   std::array<std::int16_t, 3> spoke;
   std::array<std::array<std::int16_t, 2>, 3> outer;
@@ -39,8 +39,12 @@ class StarTable {
  public:
   explicit StarTable(const Mesh<3>& mesh);
 
-  [[nodiscard]] std::span<const VertexId> spokes(VertexId v) const { return row(spokes_, start_[v][0], start_[v + 1][0]); }
-  [[nodiscard]] std::span<const StarFacet> facets(VertexId v) const { return row(facets_, start_[v][1], start_[v + 1][1]); }
+  [[nodiscard]] std::span<const VertexId> spokes(VertexId v) const {
+    return row(spokes_, start_[v][0], start_[v + 1][0]);
+  }
+  [[nodiscard]] std::span<const StarFacet> facets(VertexId v) const {
+    return row(facets_, start_[v][1], start_[v + 1][1]);
+  }
   [[nodiscard]] std::span<const StarCorner> corners(VertexId v) const {
     return row(corners_, start_[v][2], start_[v + 1][2]);
   }
@@ -64,13 +68,14 @@ class HexStar {
 
   /// Takes up vertex v.
   void visit(VertexId v);
-  /// Looks at the vertex as if it were at `position`: what follows is about that place. One batch of metric evaluations.
+  /// Looks at the vertex as if it were at `position`: what follows is about that place. One batch of metric
+  /// evaluations.
   void look_at(const Point<3>& position);
   /// Energy of all corners whose edges depend on the vertex; infinite where one is degenerate or inside out.
   [[nodiscard]] double energy();
-  /// The same with its gradient and Hessian. The gradient includes what the change of the metric from place to place does
-  /// to lengths and angles, as far as the metrics found in the middles of the edges tell. The Hessian is that of the
-  /// metric held fixed.
+  /// The same with its gradient and Hessian. The gradient includes what the change of the metric from place to place
+  /// does to lengths and angles, as far as the metrics found in the middles of the edges tell. The Hessian is that of
+  /// the metric held fixed.
   [[nodiscard]] Derivatives<3> derivatives();
   /// True if some scaled Jacobian is below `floor` at the place for which energy() was asked last.
   [[nodiscard]] bool below(double floor) const;
@@ -144,23 +149,23 @@ class HexStar {
     std::array<double, 2> quarter;
     std::array<Vector, 2> quarter_m;  ///< the metric there times u; in the middle:
     Vector middle_m;
-    double near2, far2;     ///< squared Euclidean lengths of near and far
-    Vector near, near_m;    ///< u scaled to the length as seen from here, and M times it
-    Vector far, far_m;      ///< -u scaled to the length as seen from there, and the metric there times it
+    double near2, far2;   ///< squared Euclidean lengths of near and far
+    Vector near, near_m;  ///< u scaled to the length as seen from here, and M times it
+    Vector far, far_m;    ///< -u scaled to the length as seen from there, and the metric there times it
     Sums sum;
   };
   /// An edge from the end of a spoke across a facet, scaled to its length as seen from there.
   struct OuterEdge {
-    Vector e, m;      ///< m: the metric times e
-    double length2;   ///< in the metric
+    Vector e, m;     ///< m: the metric times e
+    double length2;  ///< in the metric
     double euclid2;
   };
   /// A corner at the end of a spoke.
   struct FarCorner {
-    Vector c;               ///< d = c . e
-    double t, minor;        ///< T = t + e.e, N = minor + t e.e - (e.m0)^2 - (e.m1)^2 in the metric
+    Vector c;         ///< d = c . e
+    double t, minor;  ///< T = t + e.e, N = minor + t e.e - (e.m0)^2 - (e.m1)^2 in the metric
     std::int16_t spoke, outer0, outer1;
-    double d, p0, p1, N;    ///< at the place looked at
+    double d, p0, p1, N;  ///< at the place looked at
   };
 
   void hold();
@@ -178,7 +183,7 @@ class HexStar {
   std::vector<Spoke> spokes_;
   std::vector<OuterEdge> outer_;
   std::vector<FarCorner> far_;
-  std::vector<double> products_;    ///< e_a M e_b of each facet, then d of each corner
+  std::vector<double> products_;  ///< e_a M e_b of each facet, then d of each corner
   /// Of each facet: the factor of its part of the Hessian, and the derivative by its product.
   std::vector<std::array<double, 2>> facet_sums_;
   std::vector<Point<3>> sample_points_;

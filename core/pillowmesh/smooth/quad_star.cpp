@@ -70,8 +70,8 @@ void QuadStar::hold_far_corners() {
   }
 }
 
-/// The metric there and on the edges, whose integrated lengths go to spokes_. One point in the middle of an edge, and two
-/// more where the size varies a lot along it: the energy must agree with its gradient.
+/// The metric there and on the edges, whose integrated lengths go to spokes_. One point in the middle of an edge, and
+/// two more where the size varies a lot along it: the energy must agree with its gradient.
 void QuadStar::look_at(const Point<2>& position) {
   constexpr double varies = 1.25;
   sample_points_.clear();
@@ -89,7 +89,8 @@ void QuadStar::look_at(const Point<2>& position) {
     s.middle = std::sqrt(dot(samples_[i + 1], e, e));
     s.there = std::sqrt(dot(metric_[s.end].M, e, e));
     s.length = 0.5 * (mean_length(s.here, s.middle) + mean_length(s.middle, s.there));
-    const double low = std::min(s.middle, std::min(s.here, s.there)), high = std::max(s.middle, std::max(s.here, s.there));
+    const double low = std::min(s.middle, std::min(s.here, s.there)),
+                 high = std::max(s.middle, std::max(s.here, s.there));
     s.varies = high > varies * low;
     if (!s.varies) continue;
     sample_points_.push_back(position + 0.25 * e);
@@ -126,8 +127,8 @@ double QuadStar::energy() const {
   return sum;
 }
 
-/// Exact for lengths and angles with the metric held fixed, except that the gradient of a length is that of its integral:
-/// by the first variation it depends on the metric at the moving end alone, d l / d x = -M e / |e|_M.
+/// Exact for lengths and angles with the metric held fixed, except that the gradient of a length is that of its
+/// integral: by the first variation it depends on the metric at the moving end alone, d l / d x = -M e / |e|_M.
 Derivatives<2> QuadStar::derivatives() const {
   Derivatives<2> sum;
   const auto length_gradient = [&](const Spoke& s, const SymTensor<2>& M, double length) {

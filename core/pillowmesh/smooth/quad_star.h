@@ -1,5 +1,5 @@
-// The quadrilaterals at one vertex, as the smoother sees them: their energy (energy.h) and its derivatives with respect to
-// the position of the vertex.
+// The quadrilaterals at one vertex, as the smoother sees them: their energy (energy.h) and its derivatives with respect
+// to the position of the vertex.
 #pragma once
 
 #include <vector>
