@@ -35,7 +35,7 @@ function(pillowmesh_module target)
   target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti)
   target_link_libraries(${target} PRIVATE pillowmesh::core)
   target_link_options(${target} PRIVATE
-    -Oz --no-entry -sSTANDALONE_WASM -sFILESYSTEM=0
+    -Oz --no-entry -sSTANDALONE_WASM -sFILESYSTEM=0 -sMALLOC=emmalloc
     -sINITIAL_MEMORY=16MB -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB)
   set_target_properties(${target} PROPERTIES
     OUTPUT_NAME ${module_OUTPUT} SUFFIX .wasm RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})

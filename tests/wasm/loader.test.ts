@@ -66,8 +66,8 @@ describe('the module', () => {
     expect(gzipSync(moduleBytes(), { level: 9 }).length).toBeLessThanOrEqual(150_000);
   });
 
-  test('for hexahedra is at most 150 kB when compressed', () => {
-    expect(gzipSync(moduleBytes(3), { level: 9 }).length).toBeLessThanOrEqual(150_000);
+  test('for hexahedra is at most 165 kB when compressed', () => {
+    expect(gzipSync(moduleBytes(3), { level: 9 }).length).toBeLessThanOrEqual(165_000);
   });
 
   test('for file formats is at most 60 kB when compressed', () => {
