@@ -10,7 +10,8 @@ endif()
 # The page downloads this: what is not hot is compiled for size. Link-time optimisation takes another eighth off, and
 # -Oz at the link keeps it from undoing the rest; the hot code keeps the speed of the -O2 that it is compiled with.
 string(JOIN "|" hot
-  "refine/" "smooth/" "quality/" "metric/(program|field|length|volume)" "adapt/(adapter|tagging)" "mesh/(slide|topology)")
+  "refine/" "smooth/" "quality/" "metric/(program|field|length|volume)" "adapt/(adapter|tagging)"
+  "mesh/(slide|topology|validate)")
 foreach(source ${core_sources} ${wasm_sources})
   if(source MATCHES "pillowmesh/(${hot})|third_party")
     set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -O2 -flto)
