@@ -1,0 +1,78 @@
+// A metric looked up instead of computed: a quadtree of quadratic polynomials, made where it is first asked.
+//
+// What is kept is the size tensor H = M^(-1/2), whose eigenvalues are the sizes: where sizes grow linearly it is linear,
+// and a length is |H^-1 e|. Each leaf holds the biquadratic interpolant of H at 3 x 3 points.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "pillowmesh/metric/field.h"
+
+namespace pillowmesh {
+
+/// H = (a b; b c), symmetric positive definite, in the unit of the coordinates.
+struct SizeTensor {
+  double a, b, c;
+};
+
+/// H and its derivatives.
+struct SizeJet {
+  SizeTensor H, dx, dy;
+};
+
+/// H = M^(-1/2).
+SizeTensor size_tensor(const SymTensor<2>& M);
+
+struct BackgroundOptions {
+  /// A leaf is divided while, between its points, H is further than this from the metric's own, relative to H:
+  /// |H^-1 (interpolated - H)| in the Frobenius norm.
+  double tolerance = 2e-3;
+  /// A leaf smaller than this share of the smallest size in it is not divided any more: kinks and jumps of the metric
+  /// are as wide as that.
+  double smallest = 0.25;
+};
+
+/// Lookups of a metric over a box. The error of a length is about `tolerance`, at kinks about smallest / 8 of the
+/// change of the sizes across a unit length. Results depend on the position alone, not on what was asked before.
+class Background {
+ public:
+  /// Points outside the box are moved to its nearest point. `scale`: sizes are multiplied by it.
+  Background(MetricField<2> field, const Point<2>& low, const Point<2>& high, const BackgroundOptions& options = {});
+
+  /// Cost: about 20 ns; where nobody asked before, 41 evaluations of the metric for each level that is new.
+  SizeTensor at(const Point<2>& p) { return evaluate(locate(p)); }
+  SizeJet jet(const Point<2>& p) { return evaluate_jet(locate(p)); }
+
+  [[nodiscard]] std::size_t leaves() const { return leaves_.size(); }
+
+ private:
+  /// Coefficients of u^i v^j of a, b and c at [3 * j + i], u and v from -1 to 1 in the leaf.
+  struct Leaf {
+    std::array<std::array<double, 9>, 3> k;
+  };
+  /// child >= 0: the first of four nodes; else leaf ~child, which may have to be divided.
+  struct Node {
+    Index child;
+    std::uint8_t rough;
+  };
+  struct Place {
+    const Leaf* leaf;
+    double u, v, scale_x, scale_y;
+  };
+
+  Place locate(const Point<2>& p);
+  void divide(Index node, double x, double y, double half_x, double half_y);
+  void make_children(Index first, double x, double y, double half_x, double half_y);
+  static SizeTensor evaluate(const Place& at);
+  static SizeJet evaluate_jet(const Place& at);
+
+  MetricField<2> field_;
+  BackgroundOptions options_;
+  Point<2> low_, cell_;
+  std::vector<Node> nodes_;
+  std::vector<Leaf> leaves_;
+};
+
+}  // namespace pillowmesh

@@ -1,0 +1,61 @@
+// The energy of a quad mesh by which vertices move and by which every change of topology is judged.
+//
+// A corner with edges e1 and e2 has the integrated metric lengths l1 and l2, and G, the mean of M / sqrt(det M) in the
+// middle of both edges. With the angle phi between them in G and d = l1 l2 sin(phi), its metric area,
+//
+//     E = d w / 4,   w = (l1^2 + l2^2) (1 + 1 / d^2) / 2 - 2 + alignment (s1 + s2) / 2,
+//
+// the symmetric Dirichlet energy of the map from the unit corner, 0 only for the unit square corner. The weight d makes
+// the sums over meshes of different connectivity comparable: E is in units of one ideal cell. s = g sin^2(2 psi), where
+// psi is the angle in space between an edge and the nearest eigenvector of M, and g = ((m1 - m2) / (m1 + m2))^2.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "pillowmesh/metric/background.h"
+
+namespace pillowmesh {
+
+/// What the energy asks of an edge.
+struct EdgeTerm {
+  double l;              ///< metric length
+  double g11, g12, g22;  ///< M / sqrt(det M) in its middle
+  double s;              ///< misalignment: g sin^2(2 psi)
+};
+
+/// M / sqrt(det M) of sizes H.
+struct Shape2 {
+  double g11, g12, g22;
+};
+inline Shape2 shape_of(const SizeTensor& H) {
+  const double i = 1.0 / (H.a * H.c - H.b * H.b);
+  return {(H.c * H.c + H.b * H.b) * i, -H.b * (H.a + H.c) * i, (H.a * H.a + H.b * H.b) * i};
+}
+/// |H^-1 e|
+inline double length_in(const SizeTensor& H, const Point<2>& e) {
+  const double x = H.c * e[0] - H.b * e[1], y = H.a * e[1] - H.b * e[0];
+  return std::sqrt(x * x + y * y) / (H.a * H.c - H.b * H.b);
+}
+/// g sin^2(2 psi) of the direction e: with r = |e|^2 / (e' G e) and t = tr G it is 4 (r (t - r) - 1) / t^2.
+inline double misalignment(const Shape2& G, const Point<2>& e) {
+  const double r = e.squaredNorm() / (G.g11 * e[0] * e[0] + 2.0 * G.g12 * e[0] * e[1] + G.g22 * e[1] * e[1]);
+  const double t = G.g11 + G.g22;
+  return 4.0 * (r * (t - r) - 1.0) / (t * t);
+}
+
+/// Energy of a corner whose edges e1, e2 are in counterclockwise order; infinite when it is degenerate or inside out.
+inline double corner_energy(const Point<2>& e1, const EdgeTerm& a, const Point<2>& e2, const EdgeTerm& b,
+                            double alignment) {
+  const double cross = e1[0] * e2[1] - e1[1] * e2[0];
+  if (!(cross > 0)) return std::numeric_limits<double>::infinity();
+  const double g11 = a.g11 + b.g11, g12 = a.g12 + b.g12, g22 = a.g22 + b.g22;  // twice G: the factor cancels
+  const double q1 = g11 * e1[0] * e1[0] + 2.0 * g12 * e1[0] * e1[1] + g22 * e1[1] * e1[1];
+  const double q2 = g11 * e2[0] * e2[0] + 2.0 * g12 * e2[0] * e2[1] + g22 * e2[1] * e2[1];
+  const double L1 = a.l * a.l, L2 = b.l * b.l;
+  const double d = cross * std::sqrt((g11 * g22 - g12 * g12) * (L1 * L2) / (q1 * q2));
+  const double T = L1 + L2;
+  return 0.25 * (d * (0.5 * T - 2.0 + 0.5 * alignment * (a.s + b.s)) + 0.5 * T / d);
+}
+
+}  // namespace pillowmesh

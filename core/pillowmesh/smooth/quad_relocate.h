@@ -1,0 +1,104 @@
+// Relocation under the energy of quad_energy.h: caches of what edges and cells cost, and Newton steps at one vertex.
+#pragma once
+
+#include <vector>
+
+#include "pillowmesh/mesh/boundary.h"
+#include "pillowmesh/mesh/cavity.h"
+#include "pillowmesh/mesh/quad_star.h"
+#include "pillowmesh/smooth/quad_energy.h"
+
+namespace pillowmesh {
+
+/// The energy of every cell of a quad mesh, kept up to date where vertices move, and taken back with them.
+class QuadRelocator {
+ public:
+  struct Weights {
+    double alignment = 0.0;  ///< of edges with the eigenvectors of M
+    /// > 0: d is replaced by (d + sqrt(d^2 + 4 delta^2)) / 2, so that inverted corners have an energy too.
+    double delta = 0.0;
+    /// Weight of sum max(0, shape_floor - eta)^2 over corners.
+    double shape = 0.0;
+    double shape_floor = 0.65;
+  };
+
+  /// Mesh and background must outlive it. Cost: linear.
+  QuadRelocator(Mesh<2>& mesh, Background& background, const Weights& weights);
+
+  [[nodiscard]] double energy(CellId c) const { return energy_[c]; }
+  [[nodiscard]] const EdgeTerm& edge(CellId c, int side) const { return edges_[c][side & 3]; }
+  [[nodiscard]] double total_energy() const;
+
+  /// Moves the vertex to lower the energy around it; never to where a corner would be inverted.
+  /// \return by how much the energy fell.
+  double relocate(VertexId v);
+
+  /// Measures everything again, with these weights.
+  void measure_all(const Weights& weights);
+  [[nodiscard]] const Weights& weights() const { return weights_; }
+  /// Measures sizes at a vertex that is new or was put elsewhere.
+  void measure_vertex(VertexId v);
+  /// Measures a cell whose corners, or whose vertices, are new. \return its energy
+  double measure_cell(CellId c);
+  /// The cell is dead: it has no energy. To be called for a change that took it away.
+  void forget_cell(CellId c);
+  /// While d is regularised by delta > 0, vertices may move to where corners are inverted. Energies of cells are those
+  /// without delta only after `refresh`.
+  void set_delta(double delta) { weights_.delta = delta; }
+  void refresh(CellId c);
+
+  /// From here on everything can be taken back, the mesh's points included: those are undone by their owner.
+  void begin();
+  void undo();
+  /// By how much the energy has grown since begin().
+  [[nodiscard]] double change() const;
+  /// Told of every vertex before it moves; may be null.
+  Journal* journal = nullptr;
+
+ private:
+  struct Spoke {
+    VertexId end;
+    Point<2> q;      ///< position of its end
+    SizeTensor H;    ///< there
+    EdgeTerm now, next;
+    double dlx, dly;  ///< derivatives of its length by the moving vertex's position
+    double dsx, dsy;
+  };
+  struct Wedge {
+    CellId cell;
+    int place;
+    Point<2> o;       ///< the opposite vertex
+    EdgeTerm far1, far2;  ///< next -> opposite, opposite -> previous
+    double fixed;     ///< energy of the opposite corner
+  };
+
+  bool collect(VertexId v);
+  [[nodiscard]] double try_at(const Point<2>& x, bool into_next);
+  [[nodiscard]] double corner(const Point<2>& e1, const EdgeTerm& a, const Point<2>& e2, const EdgeTerm& b) const;
+  void touch_cell(CellId c);
+  void touch_vertex(VertexId v);
+  void add_up(CellId c);
+
+  Mesh<2>& mesh_;
+  Background& background_;
+  Weights weights_;
+  std::vector<SizeTensor> size_;                ///< per vertex
+  std::vector<std::array<EdgeTerm, 4>> edges_;  ///< per cell and side
+  std::vector<double> energy_;                  ///< per cell
+
+  QuadStar star_;
+  std::array<Spoke, QuadStar::most + 1> spokes_;
+  std::array<Wedge, QuadStar::most> wedges_;
+  int spoke_count_ = 0;
+  SizeTensor size_at_{};
+
+  Index stamp_ = 0;
+  std::vector<Index> cell_stamp_, vertex_stamp_;
+  std::vector<CellId> old_cells_;
+  std::vector<std::array<EdgeTerm, 4>> old_edges_;
+  std::vector<double> old_energy_;
+  std::vector<VertexId> old_vertices_;
+  std::vector<SizeTensor> old_sizes_;
+};
+
+}  // namespace pillowmesh
