@@ -131,6 +131,8 @@ bool LocalSearch::untangle() {
 }
 
 bool LocalSearch::attempt(Operator op, double threshold) {
+  if (op == Operator::open) threshold += potential;
+  if (op == Operator::collapse) threshold -= potential;
   Count& count = counts[static_cast<int>(op)];
   ++count.planned;
   journal_.begin();
@@ -165,6 +167,9 @@ bool LocalSearch::attempt(Operator op, double threshold) {
     return refuse();
   }
   double change = relocator_.change();
+  const bool whole = op == Operator::chord_collapse || op == Operator::chord_split;
+  const int sweeps_near = whole ? 10 : this->sweeps_near, sweeps_far = whole ? 10 : this->sweeps_far;
+  const double hope_near = whole ? 8.0 : op == Operator::open ? hope_open : this->hope_near, hope_far = whole ? 6.0 : this->hope_far;
   for (int k = 0; k < sweeps_near; ++k) {
     const double gain = relax(near_);
     change -= gain;
@@ -194,6 +199,9 @@ std::int64_t LocalSearch::pass(double temperature) {
   std::int64_t done = 0;
   changed_.resize(mesh_.points.size(), 0);
   const auto threshold = [&] { return -0.001 + (temperature > 0 ? temperature * random_.exponential() : 0.0); };
+  const auto skip = [&](int worse) {
+    return worse > 2 || (temperature > 0 && ((worse == 2 && random_.uniform() > chance2) || (worse == 0 && random_.uniform() > chance0)));
+  };
   for (CellId c = 0; c < mesh_.cell_count(); ++c) {
     if (!mesh_.alive(c)) continue;
     looked_.resize(mesh_.cells.size(), 0);
@@ -211,7 +219,7 @@ std::int64_t LocalSearch::pass(double temperature) {
         if (!plan_rotation(mesh_, c, side, way, cavity_)) continue;
         const auto& r = cavity_.around;
         const VertexId from = way == 0 ? r[2] : r[3], to = way == 0 ? r[4] : r[5];
-        if (excess(r[0], -1) + excess(r[1], -1) + excess(from, 1) + excess(to, 1) > 2) continue;
+        if (skip(excess(r[0], -1) + excess(r[1], -1) + excess(from, 1) + excess(to, 1))) continue;
         if (attempt(Operator::rotate, threshold())) {
           ++done;
           break;
@@ -225,7 +233,7 @@ std::int64_t LocalSearch::pass(double temperature) {
       if (mesh_.support[d].dim != 2 || (mesh_.support[k].dim == 2 && i >= 2)) continue;
       const int joined = mesh_.support[k].dim == 2 ? valence(d) + valence(k) - 2 : valence(d) + valence(k) - 2;
       const int off = joined - ideal_[k], before_d = valence(d) - 4, before_k = valence(k) - ideal_[k];
-      if (off * off - before_d * before_d - before_k * before_k + excess(x, -1) + excess(y, -1) > 2) continue;
+      if (skip(off * off - before_d * before_d - before_k * before_k + excess(x, -1) + excess(y, -1))) continue;
       if (!plan_diagonal_collapse(mesh_, c, i, cavity_)) continue;
       if (attempt(Operator::collapse, threshold())) {
         ++done;
@@ -247,7 +255,7 @@ std::int64_t LocalSearch::pass(double temperature) {
           const VertexId a = around(mesh_, star.cell[first], star.place[first] + 1);
           const VertexId b = around(mesh_, star.cell[last % n], star.place[last % n] + 1);
           const int v1 = n - turned + 1 - 4, v2 = turned + 1 - 4, v0 = n - 4;
-          if (v1 * v1 + v2 * v2 - v0 * v0 + excess(a, 1) + excess(b, 1) > 2) continue;
+          if (skip(v1 * v1 + v2 * v2 - v0 * v0 + excess(a, 1) + excess(b, 1))) continue;
           if (!plan_opening(mesh_, v, star, first, last, cavity_)) continue;
           if (attempt(Operator::open, threshold())) {
             ++done;
@@ -278,8 +286,9 @@ std::int64_t LocalSearch::chord_pass() {
         sum += relocator_.edge(cell, side).l;
       }
       const double mean = sum / static_cast<double>(chord_.cells.size());
-      if (mean < 0.9 && plan_chord_collapse(mesh_, chord_, cavity_) && attempt(Operator::chord_collapse, -0.001)) ++done;
-      else if (mean > 1.1 && plan_chord_split(mesh_, chord_, cavity_) && attempt(Operator::chord_split, -0.001)) ++done;
+      ++chords_seen; if (chord_.crosses) ++chords_crossing;
+      if (mean < chord_low && plan_chord_collapse(mesh_, chord_, cavity_) && attempt(Operator::chord_collapse, -0.001)) ++done;
+      else if (mean > chord_high && plan_chord_split(mesh_, chord_, cavity_) && attempt(Operator::chord_split, -0.001)) ++done;
     }
   return done;
 }

@@ -29,6 +29,8 @@ class LocalSearch {
   /// Relocates every vertex once. \return by how much the energy fell.
   double sweep();
 
+  /// Every candidate is news again.
+  void forget() { ++clock_; changed_.assign(mesh_.points.size(), clock_); }
   [[nodiscard]] double energy() const { return relocator_.total_energy(); }
   QuadRelocator& relocator() { return relocator_; }
 
@@ -36,9 +38,10 @@ class LocalSearch {
     std::int64_t planned = 0, tried = 0, early = 0, tangled = 0, done = 0;
   };
   std::array<Count, kOperators> counts{};
-  std::int64_t moves = 0;
+  std::int64_t moves = 0, chords_seen = 0, chords_crossing = 0; double chord_low = .97, chord_high = 1.03;
   int sweeps_near = 4, sweeps_far = 2;
-  double hope_near = 2.0, hope_far = 1.0;
+  double potential = 0.0, hope_open = 2.0;
+  double chance2 = 1.0, chance0 = 1.0, hope_near = 2.0, hope_far = 1.0;
 
  private:
   bool attempt(Operator op, double threshold);

@@ -6,10 +6,11 @@
 
 namespace pillowmesh {
 
-/// Plans to merge the two vertices of every rung of the chord. Corners and boundary vertices stay where they are; two of
-/// one curve merge in their middle.
-/// \return false where it is not legal: the chord crosses or touches itself, a rung joins two corners, two curves, or two
-/// boundary vertices across the inside, or regions meet in it. Cost: the cells at its rungs.
+/// Plans to merge the vertices of every rung of the chord: all that are joined by rungs become one. Where the chord
+/// crosses or touches itself these are more than two. A corner or boundary vertex stays where it is; two of one curve
+/// merge in their middle.
+/// \return false where it is not legal: rungs join two corners, two curves, or boundary vertices across the inside;
+/// another cell would lose a side; regions meet. Cost: the cells at its rungs.
 bool plan_chord_collapse(const Mesh<2>& mesh, const Chord& chord, Cavity& cavity);
 
 }  // namespace pillowmesh

@@ -56,9 +56,10 @@ Background::Background(MetricField<2> field, const Point<2>& low, const Point<2>
       for (int k = 0; k < 4; ++k) nodes_[(j + (k >> 1)) * kRoots + i + (k & 1)] = nodes_[first + k];
       nodes_.resize(first);
     }
+  descend(low);
 }
 
-Background::Place Background::locate(const Point<2>& p) {
+Background::Place Background::descend(const Point<2>& p) {
   const double fx = std::clamp((p[0] - low_[0]) / cell_[0], 0.0, double{kRoots});
   const double fy = std::clamp((p[1] - low_[1]) / cell_[1], 0.0, double{kRoots});
   const int i = std::min(static_cast<int>(fx), kRoots - 1), j = std::min(static_cast<int>(fy), kRoots - 1);
@@ -79,7 +80,10 @@ Background::Place Background::locate(const Point<2>& p) {
     column = 2 * column + right;
     row = 2 * row + up;
   }
-  return {&leaves_[~nodes_[n].child], u, v, 2.0 * scale / cell_[0], 2.0 * scale / cell_[1]};
+  last_ = ~nodes_[n].child;
+  // Not u and v: they are rounded otherwise, and outside of the box they are not those of p.
+  const Point<2> inside(low_[0] + fx * cell_[0], low_[1] + fy * cell_[1]);
+  return place(leaves_[last_], fx > 0 && fx < kRoots && fy > 0 && fy < kRoots ? p : inside);
 }
 
 void Background::divide(Index node, double x, double y, double half_x, double half_y) {
@@ -101,6 +105,10 @@ void Background::make_children(Index first, double x, double y, double half_x, d
   field_.evaluate(points, M);
   for (int k = 0; k < 4; ++k) {
     Leaf leaf;
+    leaf.x = x + ((k & 1) ? 0.5 : -0.5) * half_x;
+    leaf.y = y + ((k >> 1) ? 0.5 : -0.5) * half_y;
+    leaf.scale_x = 2.0 / half_x;
+    leaf.scale_y = 2.0 / half_y;
     for (int e = 0; e < 3; ++e) {
       std::array<double, 9> f;
       for (int j = 0; j < 3; ++j)
@@ -122,7 +130,7 @@ void Background::make_children(Index first, double x, double y, double half_x, d
     double worst = 0.0, size = 1e300;
     for (int q = 0; q < 4; ++q) {
       const SizeTensor H = size_tensor(M[25 + 4 * (2 * (k >> 1) + (q >> 1)) + 2 * (k & 1) + (q & 1)]);
-      const Place at{&leaf, (q & 1) ? 0.5 : -0.5, (q >> 1) ? 0.5 : -0.5, 0.0, 0.0};
+      const Place at{&leaf, (q & 1) ? 0.5 : -0.5, (q >> 1) ? 0.5 : -0.5};
       const double d = difference(H, evaluate(at));
       worst = d > worst || !(d == d) ? d : worst;
       size = std::min(size, smallest_size(H));
@@ -154,8 +162,8 @@ SizeJet Background::evaluate_jet(const Place& at) {
     const double r0 = k[0] + u * (k[1] + u * k[2]), r1 = k[3] + u * (k[4] + u * k[5]), r2 = k[6] + u * (k[7] + u * k[8]);
     const double s0 = k[1] + 2.0 * u * k[2], s1 = k[4] + 2.0 * u * k[5], s2 = k[7] + 2.0 * u * k[8];
     f[e] = r0 + v * (r1 + v * r2);
-    fu[e] = (s0 + v * (s1 + v * s2)) * at.scale_x;
-    fv[e] = (r1 + 2.0 * v * r2) * at.scale_y;
+    fu[e] = (s0 + v * (s1 + v * s2)) * at.leaf->scale_x;
+    fv[e] = (r1 + 2.0 * v * r2) * at.leaf->scale_y;
   }
   return {{f[0], f[1], f[2]}, {fu[0], fu[1], fu[2]}, {fv[0], fv[1], fv[2]}};
 }

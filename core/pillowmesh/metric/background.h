@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -51,6 +52,7 @@ class Background {
   /// Coefficients of u^i v^j of a, b and c at [3 * j + i], u and v from -1 to 1 in the leaf.
   struct Leaf {
     std::array<std::array<double, 9>, 3> k;
+    double x, y, scale_x, scale_y;  ///< u = (p[0] - x) scale_x
   };
   /// child >= 0: the first of four nodes; else leaf ~child, which may have to be divided.
   struct Node {
@@ -59,10 +61,18 @@ class Background {
   };
   struct Place {
     const Leaf* leaf;
-    double u, v, scale_x, scale_y;
+    double u, v;
   };
 
-  Place locate(const Point<2>& p);
+  static Place place(const Leaf& leaf, const Point<2>& p) {
+    return {&leaf, (p[0] - leaf.x) * leaf.scale_x, (p[1] - leaf.y) * leaf.scale_y};
+  }
+  Place locate(const Point<2>& p) {
+    // Who asks for one point often asks for another near it.
+    const Place at = place(leaves_[last_], p);
+    return std::abs(at.u) < 1.0 && std::abs(at.v) < 1.0 ? at : descend(p);
+  }
+  Place descend(const Point<2>& p);
   void divide(Index node, double x, double y, double half_x, double half_y);
   void make_children(Index first, double x, double y, double half_x, double half_y);
   static SizeTensor evaluate(const Place& at);
@@ -73,6 +83,7 @@ class Background {
   Point<2> low_, cell_;
   std::vector<Node> nodes_;
   std::vector<Leaf> leaves_;
+  Index last_ = 0;  ///< a leaf that is not to be divided
 };
 
 }  // namespace pillowmesh

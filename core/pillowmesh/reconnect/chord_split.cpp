@@ -1,5 +1,7 @@
 #include "pillowmesh/reconnect/chord_split.h"
 
+#include <algorithm>
+
 #include "pillowmesh/mesh/slide.h"
 
 namespace pillowmesh {
@@ -13,7 +15,6 @@ VertexSupport support_of_side(const Mesh<2>& mesh, CellId c, int side) {
 }  // namespace
 
 bool plan_chord_split(const Mesh<2>& mesh, const Chord& chord, Cavity& cavity) {
-  if (chord.crosses) return false;
   cavity.clear();
   const std::size_t rungs = chord.rungs(), count = chord.cells.size();
   const auto middle = [&](std::size_t k) { return Cavity::new_vertex(static_cast<int>(k % rungs)); };
@@ -35,14 +36,37 @@ bool plan_chord_split(const Mesh<2>& mesh, const Chord& chord, Cavity& cavity) {
     cavity.around.push_back(l);
     cavity.around.push_back(r);
   }
+  // The middles of each cell's sides: two where the chord passes once, four where it crosses itself.
+  struct Pass {
+    CellId cell;
+    int side;
+    VertexId in, out;
+  };
+  std::vector<Pass> passes;
+  for (std::size_t k = 0; k < count; ++k)
+    passes.push_back({chord.cells[k].cell, chord.cells[k].side, middle(k), middle(k + 1)});
+  std::sort(passes.begin(), passes.end(), [](const Pass& a, const Pass& b) { return a.cell < b.cell; });
   for (std::size_t k = 0; k < count; ++k) {
-    const auto [c, side] = chord.cells[k];
+    const auto [c, side, in, out] = passes[k];
     if (mesh.region[c] != mesh.region[chord.cells[0].cell]) return false;
     cavity.old_cells.push_back(c);
     const VertexId l = around(mesh, c, side), r = around(mesh, c, side + 1), r2 = around(mesh, c, side + 2),
                    l2 = around(mesh, c, side + 3);
-    cavity.new_cells.push_back(quad(l, middle(k), middle(k + 1), l2));
-    cavity.new_cells.push_back(quad(middle(k), r, r2, middle(k + 1)));
+    if (k + 1 == count || passes[k + 1].cell != c) {
+      cavity.new_cells.push_back(quad(l, in, out, l2));
+      cavity.new_cells.push_back(quad(in, r, r2, out));
+      continue;
+    }
+    // The other pass enters through the right or the left side.
+    const Pass& other = passes[++k];
+    const bool from_right = other.side == ((side + 1) & 3);
+    const VertexId right = from_right ? other.in : other.out, left = from_right ? other.out : other.in;
+    const VertexId centre = Cavity::new_vertex(static_cast<int>(cavity.new_vertices.size()));
+    cavity.new_vertices.push_back({0.25 * (mesh.points[l] + mesh.points[r] + mesh.points[r2] + mesh.points[l2]), {2, kNone}, kNone});
+    cavity.new_cells.push_back(quad(l, in, centre, left));
+    cavity.new_cells.push_back(quad(in, r, right, centre));
+    cavity.new_cells.push_back(quad(centre, right, r2, out));
+    cavity.new_cells.push_back(quad(left, centre, out, l2));
   }
   return true;
 }

@@ -7,8 +7,8 @@
 namespace pillowmesh {
 
 /// Plans to split every quad of the chord in two along the chord: a vertex is put in the middle of each rung, on the
-/// boundary curve where the rung lies on one. \return false where the chord crosses itself or regions meet in it.
-/// Cost: its length.
+/// boundary curve where the rung lies on one. A quad where the chord crosses itself becomes four.
+/// \return false where regions meet in it. Cost: its length.
 bool plan_chord_split(const Mesh<2>& mesh, const Chord& chord, Cavity& cavity);
 
 }  // namespace pillowmesh

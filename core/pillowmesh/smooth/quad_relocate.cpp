@@ -9,12 +9,12 @@ namespace {
 
 /// Edge from p (sizes P) to q (sizes Q) by Simpson's rule, by Boole's points where its three values disagree.
 EdgeTerm edge_term(Background& background, const Point<2>& p, const SizeTensor& P, const Point<2>& q,
-                   const SizeTensor& Q) {
+                   const SizeTensor& Q, bool aligned) {
   const Point<2> e = q - p;
   const SizeTensor H = background.at(0.5 * (p + q));
   const double a = length_in(P, e), m = length_in(H, e), b = length_in(Q, e);
   const Shape2 G = shape_of(H);
-  EdgeTerm term{(a + b + 4.0 * m) / 6.0, G.g11, G.g12, G.g22, misalignment(G, e)};
+  EdgeTerm term{(a + b + 4.0 * m) / 6.0, G.g11, G.g12, G.g22, aligned ? misalignment(G, e) : 0.0};
   if (std::abs(a + b - 2.0 * m) > 0.3 * term.l) {
     const double s = length_in(background.at(0.25 * q + 0.75 * p), e), t = length_in(background.at(0.25 * p + 0.75 * q), e);
     term.l = (a + b + 4.0 * (s + t) + 2.0 * m) / 12.0;
@@ -22,21 +22,27 @@ EdgeTerm edge_term(Background& background, const Point<2>& p, const SizeTensor& 
   return term;
 }
 
-/// Derivatives of |H^-1 e| where H changes by dH and e does not.
-double length_change(const SizeTensor& H, const SizeTensor& dH, const Point<2>& e) {
-  const double det = H.a * H.c - H.b * H.b, ddet = dH.a * H.c + H.a * dH.c - 2.0 * H.b * dH.b;
-  const double x = H.c * e[0] - H.b * e[1], y = H.a * e[1] - H.b * e[0];
-  const double dx = dH.c * e[0] - dH.b * e[1], dy = dH.a * e[1] - dH.b * e[0];
-  const double n = std::sqrt(x * x + y * y);
-  return (x * dx + y * dy) / (n * det) - n * ddet / (det * det);
-}
-/// Gradient of |H^-1 e| by e.
-Point<2> length_gradient(const SizeTensor& H, const Point<2>& e) {
-  const double det = H.a * H.c - H.b * H.b;
-  const double x = H.c * e[0] - H.b * e[1], y = H.a * e[1] - H.b * e[0];
-  const double i = 1.0 / (std::sqrt(x * x + y * y) * det);
-  return {(H.c * x - H.b * y) * i, (H.a * y - H.b * x) * i};
-}
+/// |H^-1 e| with what its derivatives need: u = adj(H) e, l = |u| / det H.
+struct Sample {
+  double l, x, y, i_det, i_both;  ///< i_both = 1 / (|u| det H)
+  Sample(const SizeTensor& H, const Point<2>& e) {
+    x = H.c * e[0] - H.b * e[1];
+    y = H.a * e[1] - H.b * e[0];
+    const double n = std::sqrt(x * x + y * y);
+    i_det = 1.0 / (H.a * H.c - H.b * H.b);
+    l = n * i_det;
+    i_both = i_det / n;
+  }
+  /// Gradient by e.
+  [[nodiscard]] Point<2> by_edge(const SizeTensor& H) const {
+    return {(H.c * x - H.b * y) * i_both, (H.a * y - H.b * x) * i_both};
+  }
+  /// Change where H changes by dH.
+  [[nodiscard]] double by_sizes(const SizeTensor& H, const SizeTensor& d, const Point<2>& e) const {
+    const double ddet = d.a * H.c + H.a * d.c - 2.0 * H.b * d.b;
+    return (x * (d.c * e[0] - d.b * e[1]) + y * (d.a * e[1] - d.b * e[0])) * i_both - l * ddet * i_det;
+  }
+};
 double scalar(const Shape2& G, const Point<2>& e) {
   return G.g11 * e[0] * e[0] + 2.0 * G.g12 * e[0] * e[1] + G.g22 * e[1] * e[1];
 }
@@ -168,7 +174,7 @@ double QuadRelocator::measure_cell(CellId c) {
   for (int i = 0; i < 4; ++i) v[i] = around(mesh_, c, i);
   for (int i = 0; i < 4; ++i) {
     const VertexId p = v[i], q = v[(i + 1) & 3];
-    edges_[c][i] = edge_term(background_, mesh_.points[p], size_[p], mesh_.points[q], size_[q]);
+    edges_[c][i] = edge_term(background_, mesh_.points[p], size_[p], mesh_.points[q], size_[q], weights_.alignment > 0.0);
   }
   add_up(c);
   return energy_[c];
@@ -224,16 +230,14 @@ bool QuadRelocator::collect(VertexId v) {
     w.o = mesh_.points[around(mesh_, c, i + 2)];
     w.far1 = edges_[c][(i + 1) & 3];
     w.far2 = edges_[c][(i + 2) & 3];
-    const Point<2>& n = s.q;
-    const Point<2>& p = mesh_.points[around(mesh_, c, i + 3)];
-    w.fixed = corner(p - w.o, w.far2, n - w.o, w.far1);
   }
   return true;
 }
 
 double QuadRelocator::try_at(const Point<2>& x, bool) {
   size_at_ = background_.at(x);
-  for (int k = 0; k < spoke_count_; ++k) spokes_[k].next = edge_term(background_, x, size_at_, spokes_[k].q, spokes_[k].H);
+  const bool aligned = weights_.alignment > 0.0;
+  for (int k = 0; k < spoke_count_; ++k) spokes_[k].next = edge_term(background_, x, size_at_, spokes_[k].q, spokes_[k].H, aligned);
   double sum = 0.0;
   for (int k = 0; k < star_.count; ++k) {
     const Spoke &a = spokes_[k], &b = spokes_[k + 1 == spoke_count_ ? 0 : k + 1];
@@ -258,14 +262,14 @@ double QuadRelocator::relocate(VertexId v) {
     Spoke& s = spokes_[k];
     const Point<2> e = s.q - x;
     const SizeJet mid = background_.jet(0.5 * (x + s.q));
-    const double a = length_in(here.H, e), m = length_in(mid.H, e), b = length_in(s.H, e);
-    const double factor = s.now.l / (a + 4.0 * m + b);  // 1/6, but where two more points were looked at
-    const Point<2> by_e = length_gradient(here.H, e) + 4.0 * length_gradient(mid.H, e) + length_gradient(s.H, e);
+    const Sample a(here.H, e), m(mid.H, e), b(s.H, e);
+    const double factor = s.now.l / (a.l + 4.0 * m.l + b.l);  // 1/6, but where two more points were looked at
+    const Point<2> by_e = a.by_edge(here.H) + 4.0 * m.by_edge(mid.H) + b.by_edge(s.H);
     const Shape2 G{s.now.g11, s.now.g12, s.now.g22};
     EdgeSlope& d = slope[k];
     d.e = e;
-    d.dl = factor * (Point<2>(length_change(here.H, here.dx, e) + 2.0 * length_change(mid.H, mid.dx, e),
-                              length_change(here.H, here.dy, e) + 2.0 * length_change(mid.H, mid.dy, e)) -
+    d.dl = factor * (Point<2>(a.by_sizes(here.H, here.dx, e) + 2.0 * m.by_sizes(mid.H, mid.dx, e),
+                              a.by_sizes(here.H, here.dy, e) + 2.0 * m.by_sizes(mid.H, mid.dy, e)) -
                      by_e);
     d.ds = Point<2>::Zero();
     if (weights_.alignment > 0.0)
@@ -383,9 +387,9 @@ double QuadRelocator::relocate(VertexId v) {
     step = (-g / h) * t;
   }
   const double reach = length_in(here.H, step);
-  if (!(reach > 1e-4)) return 0.0;
+  if (!(-sum.g.dot(step) > rest)) return 0.0;
   const double most = 0.5;
-  double scale = reach > most ? most / reach : 1.0;
+  double scale = reach * relaxation > most ? most / reach : relaxation;
   const double slope_along = sum.g.dot(step);
   for (int attempt = 0; attempt < 5; ++attempt, scale *= 0.4) {
     Point<2> y = x + scale * step;
@@ -406,7 +410,7 @@ double QuadRelocator::relocate(VertexId v) {
       edges_[w.cell][(w.place + 3) & 3] = spokes_[n].next;
       const Spoke &a = spokes_[k], &b = spokes_[n];
       energy_[w.cell] = corner(a.q - y, a.next, b.q - y, b.next) + corner(w.o - a.q, w.far1, y - a.q, a.next) +
-                        corner(y - b.q, b.next, w.o - b.q, w.far2) + w.fixed;
+                        corner(y - b.q, b.next, w.o - b.q, w.far2) + corner(b.q - w.o, w.far2, a.q - w.o, w.far1);
     }
     return before - after;
   }

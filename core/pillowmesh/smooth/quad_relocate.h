@@ -54,6 +54,10 @@ class QuadRelocator {
   [[nodiscard]] double change() const;
   /// Told of every vertex before it moves; may be null.
   Journal* journal = nullptr;
+  /// Newton steps are lengthened by this.
+  double relaxation = 1.0;
+  /// A vertex stays where it is when it would gain less than about half of this.
+  double rest = 1e-6;
 
  private:
   struct Spoke {
@@ -61,15 +65,12 @@ class QuadRelocator {
     Point<2> q;      ///< position of its end
     SizeTensor H;    ///< there
     EdgeTerm now, next;
-    double dlx, dly;  ///< derivatives of its length by the moving vertex's position
-    double dsx, dsy;
   };
   struct Wedge {
     CellId cell;
     int place;
     Point<2> o;       ///< the opposite vertex
     EdgeTerm far1, far2;  ///< next -> opposite, opposite -> previous
-    double fixed;     ///< energy of the opposite corner
   };
 
   bool collect(VertexId v);
