@@ -51,16 +51,33 @@ struct OptionHelp {
   const char* text;
 };
 constexpr OptionHelp kOptions[] = {
-    {"method", "paper", "Refinement by the paper's buffer layers (the default)"},
+    {"method", "full|paper",
+     "full (default): refine, coarsen, reconnect and relocate quads; hexahedra are refined by the paper's method"},
     {"threshold", "L", "Refine edges with a metric length above L (default 2)"},
-    {"smooth", "none|end|between", "When vertices are relocated (default end; between: after each iteration too)"},
-    {"dice", "N", "Refine N times coarser, then split each cell in N^dim (default 1)"},
-    {"thickness", "K", "Cells across a layer at its seed (default 1)"},
+    {"effort", "fast|normal|best", "How long method full searches (default normal)"},
+    {"align", "A", "Method full: how much edges follow the metric's directions, 0 to 1 (default 1)"},
+    {"seed", "N", "Method full: of its random numbers; the same seed gives the same mesh everywhere (default 1)"},
+    {"smooth", "none|end|between", "Method paper: when vertices are relocated (default end; between: after each iteration too)"},
+    {"dice", "N", "Method paper: refine N times coarser, then split each cell in N^dim (default 1)"},
+    {"thickness", "K", "Method paper: cells across a layer at its seed (default 1)"},
     {"augment", "N", "Rings of cells added at the ends of a layer, or auto (default): 1 in 2D, 0 in 3D"},
     {"max-cells", "N", "Stop with a valid mesh before it has more cells (default 10000000)"},
     {"max-iterations", "N", "Iterations at the most (default 30)"},
     {"max-sweeps", "N", "Sweeps of the smoother at the most, each time it runs (default 200)"},
 };
+
+/// Options of the paper's method choose it, unless the other one is asked for.
+Status choose_method(const std::map<std::string, std::string>& given, AdaptOptions& options) {
+  for (const char* name : {"smooth", "dice", "thickness"}) {
+    const auto at = given.find(name);
+    if (at == given.end() || at->second.empty()) continue;
+    const auto method = given.find("method");
+    if (method != given.end() && method->second == "full")
+      return Status::usage(std::string("--") + name + " belongs to --method paper");
+    options.method = Method::paper;
+  }
+  return {};
+}
 
 Status set_gmsh_version(WriteOptions& write, const std::string& text) {
   if (text.empty()) return {};
@@ -158,6 +175,7 @@ int run(int argc, char** argv) {
   for (const OptionHelp& o : kOptions)
     if (adapt_app->count(std::string("--") + o.name) > 0)
       if (Status s = set_option(adapt_flags.options, o.name, given[o.name]); !s.ok()) return fail(s);
+  if (Status s = choose_method(given, adapt_flags.options); !s.ok()) return fail(s);
   if (Status s = set_gmsh_version(adapt_flags.write, adapt_gmsh); !s.ok()) return fail(s);
   if (Status s = set_gmsh_version(convert_flags.write, convert_gmsh); !s.ok()) return fail(s);
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "pillowmesh/adapt/recorder.h"
+#include "pillowmesh/adapt/schedule.h"
 #include "pillowmesh/adapt/tagging.h"
 #include "pillowmesh/mesh/jacobian.h"
 #include "pillowmesh/metric/length.h"
@@ -32,7 +33,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_;
 };
 
-enum class Stage { tag, layers, smooth_between, dice, smooth_end, done };
+enum class Stage { tag, layers, smooth_between, dice, smooth_end, improve, done };
 
 }  // namespace
 
@@ -60,6 +61,7 @@ struct Adapter<Dim>::State {
   PillowWorkspace<Dim> pillow;
   BufferLayer<Dim> buffer_layer;
   std::optional<Relocator<Dim>> relocator;
+  std::unique_ptr<Schedule> schedule;  ///< full adaptation only
   int sweeps = 0;
   bool smoothed = false;  ///< the last smoothing is done; only a look at the lengths is left
   int rounds = 0;         ///< of refinement and last smoothing
@@ -68,7 +70,7 @@ struct Adapter<Dim>::State {
   Recorder<Dim> recorder;
   std::map<std::string, double> seconds;
   std::map<std::string, std::int64_t> operations;
-  double &refine_seconds = seconds["refine"], &smooth_seconds = seconds["smooth"];
+  double &refine_seconds = seconds["refine"], &smooth_seconds = seconds["smooth"], &improve_seconds = seconds["improve"];
   std::int64_t &layers = operations["layers"], &iterations = operations["iterations"],
                &relocations = operations["relocations"], &refusals = operations["refused_layers"],
                &sweep_count = operations["sweeps"];
@@ -104,6 +106,7 @@ struct Adapter<Dim>::State {
       case Stage::smooth_between: smooth(Stage::tag); break;
       case Stage::dice: dice_all(); break;
       case Stage::smooth_end: smooth(Stage::done); break;
+      case Stage::improve: improve(); break;
       case Stage::done: break;
     }
     return stage != Stage::done;
@@ -127,6 +130,10 @@ struct Adapter<Dim>::State {
                   : "edges longer than the threshold remain where no layer can be inserted");
       if (smoothed) {
         stage = Stage::done;
+        return;
+      }
+      if (full()) {
+        stage = Stage::improve;
         return;
       }
       stage = options.dice > 1 ? Stage::dice : Stage::smooth_end;
@@ -257,6 +264,27 @@ struct Adapter<Dim>::State {
     report_progress("done");
   }
 
+  [[nodiscard]] bool full() const { return Dim == 2 && options.method == Method::full; }
+
+  /// Full adaptation, after the layers: coarsen, reconnect, relocate.
+  void improve() {
+    if constexpr (Dim == 2) {
+      const Stopwatch watch(improve_seconds);
+      if (!schedule) schedule = std::make_unique<Schedule>(mesh, field, options, recorder, operations, iteration);
+      const bool more = schedule->step();
+      report_progress(schedule->activity());
+      if (more) return;
+      schedule.reset();
+      // What the layers could not shorten the operators may have, and the other way round.
+      const double longest = longest_edge();
+      outcome = longest > options.threshold * 1.001  // to the tolerance of longest_edge
+                    ? Status::limit_not_met("edges longer than the threshold remain")
+                    : Status{};
+      stage = Stage::done;
+      report_progress("done");
+    }
+  }
+
   void dice_all() {
     const Stopwatch watch(refine_seconds);
     report_progress("dicing");
@@ -283,6 +311,8 @@ struct Adapter<Dim>::State {
   void report_progress(std::string_view activity) {
     if (!context.progress) return;
     const double estimate = stage == Stage::done         ? 1.0
+                         : stage == Stage::improve    ? 0.1 + 0.9 * (schedule ? schedule->share() : 1.0)
+                         : full()                     ? 0.1 * (1.0 - 1.0 / (1.0 + 0.5 * iteration))
                          : stage == Stage::smooth_end ? 0.7 + 0.3 * sweeps / std::max(1, options.max_sweeps)
                                                       : 0.7 * (1.0 - 1.0 / (1.0 + 0.5 * iteration));
     share = std::max(share, estimate);  // work that turns out to be left must not turn it back

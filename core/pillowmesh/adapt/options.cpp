@@ -45,9 +45,18 @@ Status set_option(AdaptOptions& options, std::string_view name, std::string_view
     return Status::usage("--smooth is one of none, end, between, not '" + std::string(value) + "'");
   }
   if (name == "method") {
-    if (value == "paper") return {};
-    return Status::usage("--method is paper, not '" + std::string(value) + "'");
+    if (value == "full") return options.method = Method::full, Status{};
+    if (value == "paper") return options.method = Method::paper, Status{};
+    return Status::usage("--method is one of full, paper, not '" + std::string(value) + "'");
   }
+  if (name == "effort") {
+    if (value == "fast") return options.effort = Effort::fast, Status{};
+    if (value == "normal") return options.effort = Effort::normal, Status{};
+    if (value == "best") return options.effort = Effort::best, Status{};
+    return Status::usage("--effort is one of fast, normal, best, not '" + std::string(value) + "'");
+  }
+  if (name == "align") return read_real(name, value, -1e-300, 1.0, "from 0 to 1", options.align);
+  if (name == "seed") return read_whole(name, value, 0, 1'000'000'000, options.seed);
   return Status::usage("there is no option --" + std::string(name));
 }
 

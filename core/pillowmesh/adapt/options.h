@@ -16,7 +16,23 @@ enum class Smoothing : std::uint8_t {
   between,  ///< after every refinement iteration as well (Figure 7 i)
 };
 
+/// Which method adapts.
+enum class Method : std::uint8_t {
+  full,   ///< refine, coarsen, reconnect and relocate (quads; hexahedra are refined as by `paper`)
+  paper,  ///< refine and smooth, as the paper does
+};
+
+/// How long full adaptation searches.
+enum class Effort : std::uint8_t { fast, normal, best };
+
 struct AdaptOptions {
+  Method method = Method::full;
+  /// Full adaptation: fast is for pages that follow a moving metric, best for meshes that are kept.
+  Effort effort = Effort::normal;
+  /// Full adaptation: how much edges are drawn toward the eigenvectors of the metric where it is anisotropic, 0 to 1.
+  double align = 1.0;
+  /// Full adaptation: of its random numbers. The same seed gives the same mesh everywhere.
+  std::uint64_t seed = 1;
   /// Metric length above which an edge is tagged. [Paper] section 4 step 1: about 2.
   double threshold = 2.0;
   Smoothing smoothing = Smoothing::end;

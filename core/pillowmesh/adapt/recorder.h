@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pillowmesh/adapt/trace.h"
+#include "pillowmesh/adapt/trial.h"
 #include "pillowmesh/refine/buffer_layer.h"
 #include "pillowmesh/refine/layer.h"
 
@@ -24,6 +25,10 @@ class Recorder {
   void relocation(const Mesh<Dim>& mesh, int iteration, double energy);
   void before_dice(const Mesh<Dim>& mesh);
   void dice(const Mesh<Dim>& mesh, int iteration);
+
+  /// A change of topology by full adaptation, with the relocation around it.
+  void change(Operator op, const Mesh<2>& mesh, const Journal& journal, const Cavity& cavity, int iteration)
+    requires(Dim == 2);
 
   std::vector<Event<Dim>> take();
 

@@ -11,6 +11,11 @@ std::string_view to_string(EventKind kind) {
     case EventKind::dice: return "dice";
     case EventKind::relocation: return "relocation";
     case EventKind::iteration: return "iteration";
+    case EventKind::rotate: return "rotate";
+    case EventKind::collapse: return "collapse";
+    case EventKind::open: return "open";
+    case EventKind::chord_collapse: return "chord_collapse";
+    case EventKind::chord_split: return "chord_split";
   }
   return "";
 }

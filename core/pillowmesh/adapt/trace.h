@@ -17,13 +17,18 @@ enum class EventKind : std::uint8_t {
   dice,        ///< every cell split in n^Dim
   relocation,  ///< one sweep of the smoother
   iteration,   ///< end of an iteration of the paper's loop
+  rotate,      ///< an edge turned, and its surroundings relocated
+  collapse,    ///< a quad removed by merging two opposite vertices
+  open,        ///< a vertex split along two edges
+  chord_collapse,  ///< a whole row of quads removed
+  chord_split,     ///< a whole row of quads doubled
 };
 
 /// "tags", "layer", ...
 std::string_view to_string(EventKind kind);
 
-/// What changed between two meshes. Vertices and cells are only ever appended; a removed cell becomes dead (all
-/// corners kNone). Old values make the change undoable.
+/// What changed between two meshes. The arrays only ever grow; a removed cell becomes dead (all corners kNone), and a new
+/// one may take its number. Old values make the change undoable.
 template <int Dim>
 struct MeshDelta {
   Index vertices_before = 0, vertices_after = 0;
@@ -43,7 +48,8 @@ struct Event {
   int iteration = 0;
   /// tags: all tagged edges; layer: the ones it was formed from. Pairs of vertices as the mesh is before the event.
   std::vector<std::array<VertexId, 2>> edges;
-  /// layer: its shrink set; connect: the cells of the buffer layer.
+  /// layer: its shrink set; connect: the cells of the buffer layer; rotate and what follows it: the cells whose corners
+  /// change, as they are before.
   std::vector<CellId> cells;
   /// layer: the hull of the shrink set.
   std::vector<FacetCorners<Dim>> hull;

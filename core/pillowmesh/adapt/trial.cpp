@@ -1,0 +1,211 @@
+#include "pillowmesh/adapt/trial.h"
+
+#include <algorithm>
+
+#include "pillowmesh/coarsen/diagonal_collapse.h"
+#include "pillowmesh/mesh/portable_math.h"
+
+namespace pillowmesh {
+namespace {
+
+constexpr double kInverted = 1e100;
+constexpr int kMostCells = 7;  ///< at a vertex
+
+/// How long a change is relaxed, and how much more than in the last sweep it may still gain.
+struct Patience {
+  int near_sweeps, far_sweeps;
+  double near_hope, far_hope;
+};
+Patience patience(Operator op) {
+  switch (op) {
+    case Operator::rotate:
+    case Operator::collapse: return {4, 2, 2.0, 1.0};
+    case Operator::open: return {4, 2, 4.0, 1.0};  // starts from a sliver
+    case Operator::chord_collapse:
+    case Operator::chord_split: break;
+  }
+  return {10, 10, 8.0, 6.0};
+}
+
+}  // namespace
+
+Trial::Trial(Mesh<2>& mesh, Background& background, const QuadRelocator::Weights& weights)
+    : relocator(mesh, background, weights), mesh_(mesh), journal_(mesh) {
+  relocator.journal = &journal_;
+  relocator.rest = 1e-4;
+  relocator.relaxation = 1.3;
+  ideal_.assign(mesh.points.size(), 4);
+  changed_.assign(mesh.points.size(), clock_);
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.support[v].dim == 1) ideal_[v] = 2;
+    if (mesh.support[v].dim != 0 || !find_star(mesh, v, star_)) continue;
+    double angle = 0.0;
+    for (int k = 0; k < star_.count; ++k) {
+      const Point<2> a = mesh.points[around(mesh, star_.cell[k], star_.place[k] + 1)] - mesh.points[v];
+      const Point<2> b = mesh.points[around(mesh, star_.cell[k], star_.place[k] + 3)] - mesh.points[v];
+      angle += portable::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b));
+    }
+    ideal_[v] = static_cast<std::int8_t>(std::max(1.0, portable::floor(angle / 1.5707963267948966 + 0.5)));
+  }
+}
+
+void Trial::touch_all() {
+  ++clock_;
+  changed_.assign(mesh_.points.size(), clock_);
+}
+
+bool Trial::remove_doublets() {
+  for (std::size_t i = 0; i < cavity.around.size(); ++i) {
+    const VertexId v = cavity.around[i];
+    if (mesh_.vertex_cell[v] == kNone || mesh_.support[v].dim != 2) continue;
+    const int n = valence(v);
+    if (n >= 3) continue;
+    if (n != 2 || !plan_doublet_removal(mesh_, v, doublet_)) return false;
+    if (!journal_.apply(doublet_, doublet_ids_)) return false;
+    cavity.around.insert(cavity.around.end(), doublet_.around.begin(), doublet_.around.end());
+    new_ids_.push_back(doublet_ids_[0]);
+  }
+  return true;
+}
+
+bool Trial::valences_allow() {
+  for (const VertexId v : near_) {
+    const int n = valence(v), dim = mesh_.support[v].dim;
+    if (n > kMostCells || n < (dim == 2 ? 3 : (dim == 1 ? 2 : 1))) return false;
+  }
+  return true;
+}
+
+bool Trial::change_topology() {
+  if (!journal_.apply(cavity, new_ids_) || !remove_doublets()) return false;
+  collect_near();
+  return valences_allow();
+}
+
+/// Measures what is new. \return false when a cell is inverted.
+bool Trial::measure() {
+  ideal_.resize(mesh_.points.size(), 4);
+  changed_.resize(mesh_.points.size(), 0);
+  const bool moved = !cavity.moved.empty() || !cavity.new_vertices.empty();
+  for (const VertexId v : near_) {
+    if (mesh_.support[v].dim > 0) ideal_[v] = mesh_.support[v].dim == 2 ? 4 : 2;
+    if (moved) relocator.measure_vertex(v);
+  }
+  for (const CellId c : journal_.cells())
+    if (!mesh_.alive(c)) relocator.forget_cell(c);
+  bool good = true;
+  const auto measure_cell = [&](CellId c) {
+    if (mesh_.alive(c) && !(relocator.measure_cell(c) < kInverted)) good = false;
+  };
+  for (const CellId c : new_ids_) measure_cell(c);
+  for (const VertexId v : cavity.moved) {
+    if (mesh_.vertex_cell[v] == kNone || !find_star(mesh_, v, star_)) continue;
+    for (int k = 0; k < star_.count; ++k) measure_cell(star_.cell[k]);
+  }
+  return good;
+}
+
+/// Gives inverted corners an energy for a few sweeps over the changed vertices. \return true when nothing is inverted
+/// any more.
+bool Trial::untangle() {
+  for (const double delta : {0.3, 0.1, 0.03}) {
+    relocator.set_delta(delta);
+    relax(near_);
+    relocator.set_delta(0.0);
+    bool good = true;
+    for (const VertexId v : near_) {
+      if (!find_star(mesh_, v, star_)) return false;
+      for (int k = 0; k < star_.count; ++k) {
+        relocator.refresh(star_.cell[k]);
+        good = good && relocator.energy(star_.cell[k]) < kInverted;
+      }
+    }
+    if (good) return true;
+  }
+  return false;
+}
+
+void Trial::collect_near() {
+  stamp_.resize(mesh_.points.size(), 0);
+  ++stamp_now_;
+  near_.clear();
+  const auto add = [&](VertexId v) {
+    if (mesh_.vertex_cell[v] == kNone || stamp_[v] == stamp_now_) return;
+    stamp_[v] = stamp_now_;
+    near_.push_back(v);
+  };
+  for (const VertexId v : cavity.around) add(v);
+  for (const VertexId v : cavity.moved) add(v);
+}
+
+void Trial::collect_far() {
+  far_.clear();
+  for (const VertexId v : near_) {
+    if (!find_star(mesh_, v, star_)) continue;
+    for (int k = 0; k < star_.count; ++k)
+      for (const VertexId w : mesh_.cells[star_.cell[k]]) {
+        if (stamp_[w] == stamp_now_) continue;
+        stamp_[w] = stamp_now_;
+        far_.push_back(w);
+      }
+  }
+  far_.insert(far_.end(), near_.begin(), near_.end());
+}
+
+double Trial::relax(const std::vector<VertexId>& vertices) {
+  double gain = 0.0;
+  for (const VertexId v : vertices) gain += relocator.relocate(v);
+  moves += static_cast<std::int64_t>(vertices.size());
+  return gain;
+}
+
+bool Trial::attempt(Operator op, double threshold) {
+  Count& count = counts[static_cast<int>(op)];
+  const Patience patient = patience(op);
+  journal_.begin();
+  relocator.begin();
+  const auto refuse = [&](std::int64_t& why) {
+    ++why;
+    journal_.undo();
+    relocator.undo();
+    return false;
+  };
+  std::int64_t illegal = 0;
+  if (!change_topology()) return refuse(illegal);
+  ++count.tried;
+  if (!measure() && !untangle()) return refuse(count.tangled);
+  double change = relocator.change();
+  for (int k = 0; k < patient.near_sweeps; ++k) {
+    const double gain = relax(near_);
+    change -= gain;
+    if (change - patient.near_hope * gain > threshold) return refuse(count.hopeless);
+    if (gain < 1e-3) break;
+  }
+  collect_far();
+  for (int k = 0; k < patient.far_sweeps && change > threshold; ++k) {
+    const double gain = relax(far_);
+    change -= gain;
+    if (change - patient.far_hope * gain > threshold) return refuse(count.hopeless);
+  }
+  if (change > threshold) return refuse(count.hopeless);
+  ++count.kept;
+  ++clock_;
+  for (const VertexId v : far_) changed_[v] = clock_;
+  if (kept) kept(op, journal_);
+  return true;
+}
+
+double Trial::sweep(VertexId first, VertexId last) {
+  journal_.begin();
+  relocator.begin();
+  const double relaxation = std::exchange(relocator.relaxation, 1.5);
+  double gain = 0.0;
+  for (VertexId v = first; v < last; ++v)
+    if (mesh_.vertex_cell[v] != kNone) gain += relocator.relocate(v), ++moves;
+  relocator.relaxation = relaxation;
+  journal_.begin();
+  relocator.begin();
+  return gain;
+}
+
+}  // namespace pillowmesh

@@ -1,0 +1,77 @@
+// One change of topology, tried: planned by an operator, done, relaxed, and kept or taken back by what it does to the
+// energy.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "pillowmesh/mesh/cavity.h"
+#include "pillowmesh/smooth/quad_relocate.h"
+
+namespace pillowmesh {
+
+enum class Operator : std::uint8_t { rotate, collapse, open, chord_collapse, chord_split };
+inline constexpr int kOperators = 5;
+
+class Trial {
+ public:
+  /// The mesh and the background must outlive it. Cost: linear.
+  Trial(Mesh<2>& mesh, Background& background, const QuadRelocator::Weights& weights);
+
+  /// Does what `cavity` plans, removes doublets that it leaves, untangles, relocates the vertices around, and keeps the
+  /// result when the energy has grown by less than `threshold` (which may be negative). Else the mesh is bit for bit
+  /// what it was. Changes without hope are given up early. Cost: the cells touched.
+  bool attempt(Operator op, double threshold);
+
+  /// Relocates vertices first to last - 1 once. \return by how much the energy fell.
+  double sweep(VertexId first, VertexId last);
+
+  [[nodiscard]] int valence(VertexId v) { return find_star(mesh_, v, star_) ? star_.count : 0; }
+  /// Cells that a vertex should have: 4 inside, 2 on a curve, at a corner as many as fill it with right angles.
+  [[nodiscard]] int ideal(VertexId v) const { return ideal_[v]; }
+  /// By how much (valence - ideal)^2 grows when a vertex gets `change` cells more.
+  [[nodiscard]] int excess(VertexId v, int change) {
+    const int off = valence(v) - ideal_[v];
+    return change * (2 * off + change);
+  }
+  /// When the surroundings of v last changed, in terms of `clock`.
+  [[nodiscard]] Index changed(VertexId v) const { return changed_[v]; }
+  Index tick() { return ++clock_; }
+  void touch_all();
+
+  Cavity cavity;
+  QuadRelocator relocator;
+  /// Told of every change that was kept, while the journal still knows the mesh before it.
+  std::function<void(Operator, const Journal&)> kept;
+
+  struct Count {
+    std::int64_t tried = 0, hopeless = 0, tangled = 0, kept = 0;
+  };
+  std::array<Count, kOperators> counts{};
+  std::int64_t moves = 0;  ///< vertices that relocation was tried at
+
+ private:
+  bool change_topology();
+  bool remove_doublets();
+  bool valences_allow();
+  bool measure();
+  bool untangle();
+  void collect_near();
+  void collect_far();
+  double relax(const std::vector<VertexId>& vertices);
+
+  Mesh<2>& mesh_;
+  Journal journal_;
+  Cavity doublet_;
+  std::vector<CellId> new_ids_, doublet_ids_;
+  std::vector<VertexId> near_, far_;  ///< the vertices of the change; those, and the ring around them
+  std::vector<Index> stamp_;
+  Index stamp_now_ = 0;
+  std::vector<std::int8_t> ideal_;
+  std::vector<Index> changed_;
+  Index clock_ = 1;
+  QuadStar star_;
+};
+
+}  // namespace pillowmesh
