@@ -22,7 +22,7 @@ class LocalSearch {
   /// Changes kept since begin_pass.
   [[nodiscard]] std::int64_t kept() const { return kept_; }
 
-  /// Tries to collapse chords whose rungs are short in the mean, and to split those where they are long. Chords once
+  /// Tries to collapse chords where there is a row too many, and to split those where there is one too few. Chords once
   /// each. \return the changes kept. Cost: all chords are walked.
   std::int64_t chord_pass();
 
@@ -30,6 +30,7 @@ class LocalSearch {
   bool interesting(CellId c);
   bool worth_trying(int excess);
   double threshold();
+  double chord_gain();
   void try_rotations(CellId c);
   void try_collapses(CellId c);
   void try_openings(CellId c);
@@ -42,7 +43,7 @@ class LocalSearch {
   std::int64_t kept_ = 0;
   std::vector<Index> looked_;  ///< per cell: when its candidates were last tried
   std::vector<std::uint8_t> marks_;
-  Chord chord_;
+  Chord chord_, across_;
 };
 
 }  // namespace pillowmesh

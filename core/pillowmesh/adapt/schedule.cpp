@@ -8,6 +8,7 @@ namespace pillowmesh {
 namespace {
 
 constexpr std::int64_t kMovesPerStep = 4000;
+constexpr int kSweepsPerMark = 4;
 
 /// How much is spent. Temperatures fall geometrically.
 struct Effort_ {
@@ -75,6 +76,15 @@ bool Schedule::continue_sweep() {
   gain_ += trial_.sweep(next_vertex_, stop);
   next_vertex_ = stop;
   if (stop < mesh_.vertex_count()) return true;
+  // Sweeps carry a change from row to row; every few of them go on in the direction that they took.
+  if (stage_ == Stage::relax || stage_ == Stage::settle) {
+    if (sweeps_ % kSweepsPerMark == kSweepsPerMark - 1) {
+      trial_.extrapolate(mark_);
+      mark_ = mesh_.points;
+    } else if (sweeps_ == 0) {
+      mark_ = mesh_.points;
+    }
+  }
   sweeping_ = false;
   ++sweeps_;
   ++operations_["sweeps"];
@@ -94,8 +104,8 @@ void Schedule::next_pass() {
 }
 
 void Schedule::end_pass() {
-  const std::int64_t chords = search_.chord_pass();
   const bool cold = pass_ >= hot_passes_;
+  const std::int64_t chords = cold || pass_ == 0 ? search_.chord_pass() : 0;
   ++pass_;
   if (cold && search_.kept() + chords == 0) pass_ = hot_passes_ + cold_passes_;
   stage_ = Stage::after_pass;

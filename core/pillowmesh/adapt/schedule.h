@@ -51,6 +51,7 @@ class Schedule {
   int polish_ = 0;
   int sweeps_ = 0;    ///< in this stage
   bool sweeping_ = false;
+  std::vector<Point<2>> mark_;  ///< where the vertices were some sweeps ago
   VertexId next_vertex_ = 0;
   double gain_ = 0.0;  ///< of the sweep
 };

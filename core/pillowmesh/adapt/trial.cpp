@@ -4,6 +4,7 @@
 
 #include "pillowmesh/coarsen/diagonal_collapse.h"
 #include "pillowmesh/mesh/portable_math.h"
+#include "pillowmesh/mesh/slide.h"
 
 namespace pillowmesh {
 namespace {
@@ -13,18 +14,18 @@ constexpr int kMostCells = 7;  ///< at a vertex
 
 /// How long a change is relaxed, and how much more than in the last sweep it may still gain.
 struct Patience {
-  int near_sweeps, far_sweeps;
+  int near_sweeps, rings, far_sweeps;
   double near_hope, far_hope;
 };
 Patience patience(Operator op) {
   switch (op) {
     case Operator::rotate:
-    case Operator::collapse: return {4, 2, 2.0, 1.0};
-    case Operator::open: return {4, 2, 4.0, 1.0};  // starts from a sliver
+    case Operator::collapse: return {4, 1, 2, 2.0, 1.0};
+    case Operator::open: return {4, 1, 2, 4.0, 1.0};  // starts from a sliver
     case Operator::chord_collapse:
     case Operator::chord_split: break;
   }
-  return {10, 10, 8.0, 6.0};
+  return {0, 4, 12, 0.0, 10.0};  // the rows beside it have to give way, and those beside them
 }
 
 }  // namespace
@@ -138,18 +139,21 @@ void Trial::collect_near() {
   for (const VertexId v : cavity.moved) add(v);
 }
 
-void Trial::collect_far() {
-  far_.clear();
-  for (const VertexId v : near_) {
-    if (!find_star(mesh_, v, star_)) continue;
-    for (int k = 0; k < star_.count; ++k)
-      for (const VertexId w : mesh_.cells[star_.cell[k]]) {
-        if (stamp_[w] == stamp_now_) continue;
-        stamp_[w] = stamp_now_;
-        far_.push_back(w);
-      }
+void Trial::collect_far(int rings) {
+  far_ = near_;
+  std::size_t first = 0;
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::size_t last = far_.size();
+    for (; first < last; ++first) {
+      if (!find_star(mesh_, far_[first], star_)) continue;
+      for (int k = 0; k < star_.count; ++k)
+        for (const VertexId w : mesh_.cells[star_.cell[k]]) {
+          if (stamp_[w] == stamp_now_) continue;
+          stamp_[w] = stamp_now_;
+          far_.push_back(w);
+        }
+    }
   }
-  far_.insert(far_.end(), near_.begin(), near_.end());
 }
 
 double Trial::relax(const std::vector<VertexId>& vertices) {
@@ -181,7 +185,7 @@ bool Trial::attempt(Operator op, double threshold) {
     if (change - patient.near_hope * gain > threshold) return refuse(count.hopeless);
     if (gain < 1e-3) break;
   }
-  collect_far();
+  collect_far(patient.rings);
   for (int k = 0; k < patient.far_sweeps && change > threshold; ++k) {
     const double gain = relax(far_);
     change -= gain;
@@ -198,14 +202,41 @@ bool Trial::attempt(Operator op, double threshold) {
 double Trial::sweep(VertexId first, VertexId last) {
   journal_.begin();
   relocator.begin();
-  const double relaxation = std::exchange(relocator.relaxation, 1.5);
+  // A displacement of the whole mesh is little at each vertex: here small gains count.
+  const double relaxation = std::exchange(relocator.relaxation, 1.5), rest = std::exchange(relocator.rest, 1e-9);
   double gain = 0.0;
   for (VertexId v = first; v < last; ++v)
     if (mesh_.vertex_cell[v] != kNone) gain += relocator.relocate(v), ++moves;
   relocator.relaxation = relaxation;
+  relocator.rest = rest;
   journal_.begin();
   relocator.begin();
   return gain;
+}
+
+void Trial::extrapolate(const std::vector<Point<2>>& before) {
+  double energy = relocator.total_energy();
+  points_ = mesh_.points;
+  anchors_ = mesh_.anchor;
+  std::vector<Point<2>> best = points_;
+  std::vector<Index> best_anchors = anchors_;
+  for (double factor = 1.0; factor < 200.0; factor *= 2.0) {
+    for (VertexId v = 0; v < mesh_.vertex_count(); ++v) {
+      if (mesh_.vertex_cell[v] == kNone || mesh_.support[v].dim == 0) continue;
+      mesh_.points[v] = points_[v] + factor * (points_[v] - before[v]);
+      if (mesh_.support[v].dim == 1) mesh_.points[v] = slide(*mesh_.geometry, mesh_.support[v], mesh_.anchor[v], mesh_.points[v]);
+    }
+    relocator.measure_all(relocator.weights());
+    const double there = relocator.total_energy();
+    if (!(there < energy)) break;
+    energy = there;
+    best = mesh_.points;
+    best_anchors = mesh_.anchor;
+  }
+  mesh_.points.swap(best);
+  mesh_.anchor.swap(best_anchors);
+  relocator.measure_all(relocator.weights());
+  journal_.begin();
 }
 
 }  // namespace pillowmesh
