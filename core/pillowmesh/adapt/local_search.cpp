@@ -132,11 +132,16 @@ double LocalSearch::chord_gain() {
     first += m * (1.0 / l - l * l * l);
     second += 2.0 * m;
   }
+  // Where the rows across are too wide together, and not this one alone: else it takes its share from them anyway.
   const ChordCell middle = chord_.cells[chord_.cells.size() / 2];
   find_chord(mesh_, middle.cell, middle.side + 1, marks_, across_);
-  second /= static_cast<double>(across_.cells.size());
-  if (first > second) return first - second;
-  return first < -second ? first + second : 0.0;
+  double width = 0.0;
+  for (const auto& [cell, side] : across_.cells)
+    width += 0.5 * (trial_.relocator.edge(cell, side + 1).l + trial_.relocator.edge(cell, side + 3).l);
+  const double rows = static_cast<double>(across_.cells.size());
+  second /= rows;
+  if (first > second && width < rows - 0.5) return first - second;
+  return first < -second && width > rows + 0.5 ? first + second : 0.0;
 }
 
 std::int64_t LocalSearch::chord_pass() {

@@ -8,7 +8,7 @@ namespace pillowmesh {
 namespace {
 
 constexpr std::int64_t kMovesPerStep = 4000;
-constexpr int kSweepsPerMark = 4;
+constexpr int kRelaxSweeps = 5;
 
 /// How much is spent. Temperatures fall geometrically.
 struct Effort_ {
@@ -20,10 +20,10 @@ struct Effort_ {
 Effort_ effort_of(Effort effort) {
   switch (effort) {
     case Effort::fast: return {0, 0.0, 0.0, 1, 0, 4, 4};
-    case Effort::normal: return {12, 0.4, 0.06, 6, 2, 10, 10};
+    case Effort::normal: return {12, 0.4, 0.1, 6, 2, 20, 40};
     case Effort::best: break;
   }
-  return {100, 0.6, 0.06, 20, 6, 20, 40};
+  return {100, 0.6, 0.1, 20, 6, 40, 150};
 }
 
 /// Weight of alignment in the energy when the option asks for all of it.
@@ -49,7 +49,8 @@ Schedule::Schedule(Mesh<2>& mesh, const MetricField<2>& field, const AdaptOption
       iteration_(iteration),
       background_(background_of(mesh, field)),
       trial_(mesh, background_, {.alignment = kAlignment * options.align}),
-      search_(mesh, trial_, options.seed) {
+      search_(mesh, trial_, options.seed),
+      descent_(mesh, trial_.relocator) {
   if (options.record)
     trial_.kept = [this](Operator op, const Journal& journal) { recorder_.change(op, mesh_, journal, trial_.cavity, iteration_); };
   hot_passes_ = effort_of(options.effort).hot_passes;
@@ -76,20 +77,23 @@ bool Schedule::continue_sweep() {
   gain_ += trial_.sweep(next_vertex_, stop);
   next_vertex_ = stop;
   if (stop < mesh_.vertex_count()) return true;
-  // Sweeps carry a change from row to row; every few of them go on in the direction that they took.
-  if (stage_ == Stage::relax || stage_ == Stage::settle) {
-    if (sweeps_ % kSweepsPerMark == kSweepsPerMark - 1) {
-      trial_.extrapolate(mark_);
-      mark_ = mesh_.points;
-    } else if (sweeps_ == 0) {
-      mark_ = mesh_.points;
-    }
-  }
+  end_sweep();
+  return false;
+}
+
+void Schedule::end_sweep() {
   sweeping_ = false;
   ++sweeps_;
   ++operations_["sweeps"];
   if (options_.record) recorder_.relocation(mesh_, iteration_, trial_.relocator.total_energy());
-  return false;
+}
+
+/// One iteration over all vertices at once. \return false when there is nothing left to gain.
+bool Schedule::descend(int most) {
+  recorder_.before_relocation(mesh_);
+  gain_ = descent_.iterate();
+  end_sweep();
+  return sweeps_ < most && gain_ > 1e-5 * trial_.relocator.total_energy();
 }
 
 void Schedule::next_pass() {
@@ -116,7 +120,6 @@ void Schedule::end_polish_round() {
   if (polish_ == effort_of(options_.effort).polish_rounds || (polish_ > 0 && search_.kept() == 0)) {
     stage_ = Stage::settle;
     sweeps_ = 0;
-    begin_sweep();
     return;
   }
   if (polish_++ == 0) {
@@ -130,9 +133,13 @@ bool Schedule::step() {
   const Effort_ effort = effort_of(options_.effort);
   switch (stage_) {
     case Stage::relax:
-      if (!sweeping_) begin_sweep();
-      if (continue_sweep()) break;
-      if (sweeps_ >= effort.relax_sweeps || gain_ < 1e-3 * trial_.relocator.total_energy()) next_pass();
+      // Sweeps take out what is crumpled, descent then moves whole rows.
+      if (sweeps_ < kRelaxSweeps) {
+        if (!sweeping_) begin_sweep();
+        continue_sweep();
+      } else if (!descend(kRelaxSweeps + effort.relax_sweeps)) {
+        next_pass();
+      }
       break;
     case Stage::pass:
       if (!search_.continue_pass(kMovesPerStep)) end_pass();
@@ -148,11 +155,7 @@ bool Schedule::step() {
       }
       break;
     case Stage::settle:
-      if (continue_sweep()) break;
-      if (sweeps_ >= effort.settle_sweeps || gain_ < 1e-5 * trial_.relocator.total_energy())
-        stage_ = Stage::done;
-      else
-        begin_sweep();
+      if (!descend(effort.settle_sweeps)) stage_ = Stage::done;
       break;
     case Stage::done: break;
   }

@@ -8,6 +8,7 @@
 #include "pillowmesh/adapt/local_search.h"
 #include "pillowmesh/adapt/options.h"
 #include "pillowmesh/adapt/recorder.h"
+#include "pillowmesh/smooth/quad_descent.h"
 
 namespace pillowmesh {
 
@@ -30,6 +31,8 @@ class Schedule {
 
   void begin_sweep();
   bool continue_sweep();
+  void end_sweep();
+  bool descend(int most);
   void next_pass();
   void end_pass();
   void end_polish_round();
@@ -44,6 +47,7 @@ class Schedule {
   Background background_;
   Trial trial_;
   LocalSearch search_;
+  QuadDescent descent_;
 
   Stage stage_ = Stage::relax;
   int hot_passes_ = 0, cold_passes_ = 0;
@@ -51,7 +55,6 @@ class Schedule {
   int polish_ = 0;
   int sweeps_ = 0;    ///< in this stage
   bool sweeping_ = false;
-  std::vector<Point<2>> mark_;  ///< where the vertices were some sweeps ago
   VertexId next_vertex_ = 0;
   double gain_ = 0.0;  ///< of the sweep
 };

@@ -4,7 +4,6 @@
 
 #include "pillowmesh/coarsen/diagonal_collapse.h"
 #include "pillowmesh/mesh/portable_math.h"
-#include "pillowmesh/mesh/slide.h"
 
 namespace pillowmesh {
 namespace {
@@ -20,8 +19,8 @@ struct Patience {
 Patience patience(Operator op) {
   switch (op) {
     case Operator::rotate:
-    case Operator::collapse: return {4, 1, 2, 2.0, 1.0};
-    case Operator::open: return {4, 1, 2, 4.0, 1.0};  // starts from a sliver
+    case Operator::collapse: return {4, 1, 2, 0.6, 1.0};
+    case Operator::open: return {4, 1, 2, 1.0, 1.0};  // starts from a sliver
     case Operator::chord_collapse:
     case Operator::chord_split: break;
   }
@@ -183,7 +182,7 @@ bool Trial::attempt(Operator op, double threshold) {
     const double gain = relax(near_);
     change -= gain;
     if (change - patient.near_hope * gain > threshold) return refuse(count.hopeless);
-    if (gain < 1e-3) break;
+    if (gain < 1e-3 || (change < threshold && k >= 1)) break;
   }
   collect_far(patient.rings);
   for (int k = 0; k < patient.far_sweeps && change > threshold; ++k) {
@@ -212,31 +211,6 @@ double Trial::sweep(VertexId first, VertexId last) {
   journal_.begin();
   relocator.begin();
   return gain;
-}
-
-void Trial::extrapolate(const std::vector<Point<2>>& before) {
-  double energy = relocator.total_energy();
-  points_ = mesh_.points;
-  anchors_ = mesh_.anchor;
-  std::vector<Point<2>> best = points_;
-  std::vector<Index> best_anchors = anchors_;
-  for (double factor = 1.0; factor < 200.0; factor *= 2.0) {
-    for (VertexId v = 0; v < mesh_.vertex_count(); ++v) {
-      if (mesh_.vertex_cell[v] == kNone || mesh_.support[v].dim == 0) continue;
-      mesh_.points[v] = points_[v] + factor * (points_[v] - before[v]);
-      if (mesh_.support[v].dim == 1) mesh_.points[v] = slide(*mesh_.geometry, mesh_.support[v], mesh_.anchor[v], mesh_.points[v]);
-    }
-    relocator.measure_all(relocator.weights());
-    const double there = relocator.total_energy();
-    if (!(there < energy)) break;
-    energy = there;
-    best = mesh_.points;
-    best_anchors = mesh_.anchor;
-  }
-  mesh_.points.swap(best);
-  mesh_.anchor.swap(best_anchors);
-  relocator.measure_all(relocator.weights());
-  journal_.begin();
 }
 
 }  // namespace pillowmesh

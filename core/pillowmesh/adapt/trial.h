@@ -27,10 +27,6 @@ class Trial {
   /// Relocates vertices first to last - 1 once. \return by how much the energy fell.
   double sweep(VertexId first, VertexId last);
 
-  /// Goes on in the direction from `before` (one point per vertex) to where the vertices are now, as far as the energy
-  /// falls: what sweeps would take long for, since they carry a displacement from row to row. Cost: linear.
-  void extrapolate(const std::vector<Point<2>>& before);
-
   [[nodiscard]] int valence(VertexId v) { return find_star(mesh_, v, star_) ? star_.count : 0; }
   /// Cells that a vertex should have: 4 inside, 2 on a curve, at a corner as many as fill it with right angles.
   [[nodiscard]] int ideal(VertexId v) const { return ideal_[v]; }
@@ -70,8 +66,6 @@ class Trial {
   Cavity doublet_;
   std::vector<CellId> new_ids_, doublet_ids_;
   std::vector<VertexId> near_, far_;  ///< the vertices of the change; those, and some rings around them
-  std::vector<Point<2>> points_;
-  std::vector<Index> anchors_;
   std::vector<Index> stamp_;
   Index stamp_now_ = 0;
   std::vector<std::int8_t> ideal_;

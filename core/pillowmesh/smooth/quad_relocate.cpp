@@ -63,11 +63,6 @@ double misalignment_by_sizes(const SizeTensor& H, const Shape2& G, const SizeTen
   return 4.0 * ((t - 2.0 * r) * dr + r * dt) / (t * t) - 8.0 * (r * (t - r) - 1.0) * dt / (t * t * t);
 }
 
-struct Sum {
-  Point<2> g = Point<2>::Zero();
-  double xx = 0, xy = 0, yy = 0;
-};
-
 /// Gradient of an edge's terms by the position of its moving end.
 struct EdgeSlope {
   Point<2> e;      ///< the edge, out of the corner
@@ -250,9 +245,8 @@ double QuadRelocator::try_at(const Point<2>& x, bool) {
   return sum;
 }
 
-double QuadRelocator::relocate(VertexId v) {
-  const VertexSupport support = mesh_.support[v];
-  if (support.dim == 0 || !collect(v)) return 0.0;
+bool QuadRelocator::derivatives(VertexId v, Derivatives& sum) {
+  if (!collect(v)) return false;
   const Point<2> x = mesh_.points[v];
 
   // Derivatives of the spokes' lengths and alignments.
@@ -279,8 +273,7 @@ double QuadRelocator::relocate(VertexId v) {
   }
 
   // Sum over the corners that change.
-  Sum sum;
-  double before = 0.0;
+  sum = {};
   const auto add = [&](const Point<2>& e1, const EdgeTerm& a, const EdgeSlope* da, const Point<2>& e2,
                        const EdgeTerm& b, const EdgeSlope* db, const Point<2>& dcross) {
     const double cross = e1[0] * e2[1] - e1[1] * e2[0];
@@ -299,7 +292,7 @@ double QuadRelocator::relocate(VertexId v) {
     const double align = 0.5 * weights_.alignment;
     const double u = 0.5 * T - 2.0 + align * (a.s + b.s), ud = u - 0.5 * T / (d * d), uT = 0.5 * (d + 1.0 / d);
     const double E = 0.25 * (d * u + 0.5 * T / d);
-    before += E;
+    sum.value += E;
     Point<2> gd = kappa * dcross, gT = Point<2>::Zero(), gs = Point<2>::Zero();  // frozen d for the Hessian
     Point<2> gdm = gd;
     double h11 = 0, h12 = 0, h22 = 0;
@@ -321,7 +314,7 @@ double QuadRelocator::relocate(VertexId v) {
     edge(db, b, db ? (db->sign > 0 ? Point<2>(-e2) : e2) : e2, q2);
     gd *= chain;
     gdm *= chain;
-    sum.g += 0.25 * (ud * gdm + uT * gT + (align * d) * gs);
+    sum.gradient += 0.25 * (ud * gdm + uT * gT + (align * d) * gs);
     const double c1 = 0.25 * 0.5 * (1.0 - 1.0 / (d * d)), c2 = 0.25 * T / (d * d * d), c3 = 0.25 * uT;
     sum.xx += 2.0 * c1 * gd[0] * gT[0] + c2 * gd[0] * gd[0] + c3 * h11;
     sum.xy += c1 * (gd[0] * gT[1] + gd[1] * gT[0]) + c2 * gd[0] * gd[1] + c3 * h12;
@@ -331,14 +324,14 @@ double QuadRelocator::relocate(VertexId v) {
       const double mean = dot * std::sqrt(L1 * L2 / (q1 * q2)), D = T - mean, eta = 2.0 * raw / D;
       const double lack = weights_.shape_floor - eta;
       if (lack > 0) {
-        before += weights_.shape * lack * lack;
+        sum.value += weights_.shape * lack * lack;
         // d eta = (2 d raw - eta dD) / D, the mean product taken with the metric frozen.
         Point<2> gm = Point<2>::Zero();
         const double ratio = std::sqrt(L1 * L2 / (q1 * q2));
         if (da != nullptr) gm += (ratio * da->sign) * Point<2>(g11 * e2[0] + g12 * e2[1], g12 * e2[0] + g22 * e2[1]);
         if (db != nullptr) gm += (ratio * db->sign) * Point<2>(g11 * e1[0] + g12 * e1[1], g12 * e1[0] + g22 * e1[1]);
         const Point<2> ge = (1.0 / D) * ((2.0 / chain) * gdm - eta * (gT - gm));
-        sum.g -= 2.0 * weights_.shape * lack * ge;
+        sum.gradient -= 2.0 * weights_.shape * lack * ge;
         sum.xx += 2.0 * weights_.shape * ge[0] * ge[0];
         sum.xy += 2.0 * weights_.shape * ge[0] * ge[1];
         sum.yy += 2.0 * weights_.shape * ge[1] * ge[1];
@@ -364,33 +357,47 @@ double QuadRelocator::relocate(VertexId v) {
     add(x - b.q, b.now, &forth, g, w.far2, nullptr, Point<2>(g[1], -g[0]));
   }
 
-  // Newton's step with the Hessian made positive.
+  return true;
+}
+
+Point<2> QuadRelocator::Derivatives::step() const {
+  const double mean = 0.5 * (xx + yy), diff = 0.5 * (xx - yy), root = std::sqrt(diff * diff + xy * xy);
+  double l1 = std::abs(mean + root), l2 = std::abs(mean - root);
+  const double floor = 1e-3 * std::max(l1, l2);
+  if (!(floor > 0)) return Point<2>::Zero();
+  l1 = std::max(l1, floor), l2 = std::max(l2, floor);
+  // The part of the gradient along the first eigenvector u, by the projection u u'.
+  double uxx = 1.0, uxy = 0.0;
+  if (root > 0) uxx = 0.5 * (1.0 + diff / root), uxy = 0.5 * xy / root;
+  const Point<2> along(uxx * gradient[0] + uxy * gradient[1], uxy * gradient[0] + (1.0 - uxx) * gradient[1]);
+  return -(along / l1 + (gradient - along) / l2);
+}
+
+double QuadRelocator::Derivatives::step_along(const Point<2>& t) const {
+  const double h = std::abs(xx * t[0] * t[0] + 2 * xy * t[0] * t[1] + yy * t[1] * t[1]);
+  return h > 0 ? -t.dot(gradient) / h : 0.0;
+}
+
+double QuadRelocator::relocate(VertexId v) {
+  const VertexSupport support = mesh_.support[v];
+  Derivatives sum;
+  if (support.dim == 0 || !derivatives(v, sum)) return 0.0;
+  const Point<2> x = mesh_.points[v];
+  const double before = sum.value;
   Point<2> step;
   if (support.dim == 2) {
-    const double mean = 0.5 * (sum.xx + sum.yy), diff = 0.5 * (sum.xx - sum.yy);
-    const double root = std::sqrt(diff * diff + sum.xy * sum.xy);
-    double l1 = std::abs(mean + root), l2 = std::abs(mean - root);
-    const double floor = 1e-3 * std::max(l1, l2);
-    l1 = std::max(l1, floor), l2 = std::max(l2, floor);
-    if (!(l1 > 0)) return 0.0;
-    // H = l1 u u' + l2 w w'; u u' = ((mean_part) + ...) by projection.
-    double uxx = 1.0, uxy = 0.0;
-    if (root > 0) uxx = 0.5 * (1.0 + diff / root), uxy = 0.5 * sum.xy / root;
-    const Point<2> along(uxx * sum.g[0] + uxy * sum.g[1], uxy * sum.g[0] + (1.0 - uxx) * sum.g[1]);
-    step = -(along / l1 + (sum.g - along) / l2);
+    step = sum.step();
   } else {
     const Geometry<2>& geometry = *mesh_.geometry;
     const auto& f = geometry.facets[mesh_.anchor[v]];
     const Point<2> t = (geometry.points[f[1]] - geometry.points[f[0]]).normalized();
-    const double g = t.dot(sum.g), h = std::abs(sum.xx * t[0] * t[0] + 2 * sum.xy * t[0] * t[1] + sum.yy * t[1] * t[1]);
-    if (!(h > 0)) return 0.0;
-    step = (-g / h) * t;
+    step = sum.step_along(t) * t;
   }
-  const double reach = length_in(here.H, step);
-  if (!(-sum.g.dot(step) > rest)) return 0.0;
+  const double reach = length_in(size_[v], step);
+  const double slope_along = sum.gradient.dot(step);
+  if (!(-slope_along > rest)) return 0.0;
   const double most = 0.5;
   double scale = reach * relaxation > most ? most / reach : relaxation;
-  const double slope_along = sum.g.dot(step);
   for (int attempt = 0; attempt < 5; ++attempt, scale *= 0.4) {
     Point<2> y = x + scale * step;
     Index anchor = mesh_.anchor[v];

@@ -33,6 +33,20 @@ class QuadRelocator {
   /// \return by how much the energy fell.
   double relocate(VertexId v);
 
+  /// Energy of the corners that a vertex takes part in (but for those opposite to it), its gradient by the vertex's
+  /// position, and its Hessian with the metric held fixed.
+  struct Derivatives {
+    double value = 0.0;
+    Point<2> gradient = Point<2>::Zero();
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+    /// Newton's step with the eigenvalues of the Hessian made positive.
+    [[nodiscard]] Point<2> step() const;
+    /// The same along a unit vector.
+    [[nodiscard]] double step_along(const Point<2>& t) const;
+  };
+  /// \return false where the vertex cannot be moved because too many cells meet there.
+  bool derivatives(VertexId v, Derivatives& out);
+
   /// Measures everything again, with these weights.
   void measure_all(const Weights& weights);
   [[nodiscard]] const Weights& weights() const { return weights_; }
