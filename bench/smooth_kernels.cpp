@@ -16,6 +16,7 @@ void sweep(benchmark::State& state, const char* name, double scale) {
   const Case& example = *find_case(name);
   const auto field = MetricField<Dim>::from_formula(example.formula)->scaled(scale);
   AdaptOptions options;
+  options.method = Method::paper;
   options.smoothing = Smoothing::none;
   Adapter<Dim> adapter(std::get<Mesh<Dim>>(*parse_primitive(example.mesh)), field, options);
   if (!adapter.run().ok()) state.SkipWithError("the layers could not be inserted");

@@ -1,10 +1,31 @@
 // Replayable events as they come out of the core: views into two flat arrays, nothing copied.
 
 /** In the order of EventKind in core/pillowmesh/adapt/trace.h. */
-export const eventKinds = ['tags', 'layer', 'shrink', 'connect', 'dice', 'relocation', 'iteration'] as const;
+export const eventKinds = [
+  'tags',
+  'layer',
+  'shrink',
+  'connect',
+  'dice',
+  'relocation',
+  'iteration',
+  'rotate',
+  'collapse',
+  'open',
+  'chord_collapse',
+  'chord_split',
+] as const;
 export type EventKind = (typeof eventKinds)[number];
+/** Changes of topology by full adaptation; the vertices around are relocated with them. */
+export const operatorKinds: ReadonlySet<EventKind> = new Set([
+  'rotate',
+  'collapse',
+  'open',
+  'chord_collapse',
+  'chord_split',
+]);
 
-/** What changed. Vertices and cells are only appended; a dead cell has corners -1. */
+/** What changed. The arrays only grow; a dead cell has corners -1, and a new one may take its number. */
 export interface MeshDelta {
   readonly verticesBefore: number;
   readonly verticesAfter: number;
@@ -26,7 +47,7 @@ export interface MeshEvent {
   readonly value: number;
   /** Pairs of vertices. tags: all tagged edges; layer: those it was formed from. */
   readonly edges: Int32Array;
-  /** layer: its shrink set; connect: the buffer layer. */
+  /** layer: its shrink set; connect: the buffer layer; operators: the cells that change, as they are before. */
   readonly cells: Int32Array;
   /** layer: hull facets, 2^(dim-1) vertices each. */
   readonly hull: Int32Array;

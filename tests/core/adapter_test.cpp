@@ -43,6 +43,7 @@ std::vector<NamedField> metrics(const Mesh<2>& mesh) {
 
 AdaptOptions unsmoothed() {
   AdaptOptions options;
+  options.method = Method::paper;
   options.smoothing = Smoothing::none;
   return options;
 }
@@ -83,6 +84,7 @@ TEST_CASE("every mesh of every run is valid, and refinement ends with all length
 TEST_CASE("patches and groups survive, and boundary vertices stay on the domain's boundary") {
   for_each_problem([](const Mesh<2>& mesh, const MetricField<2>& field) {
     AdaptOptions options;
+    options.method = Method::paper;
     options.max_sweeps = 10;
     Adapter<2> adapter(mesh, field, options);
     (void)adapter.run();
@@ -108,6 +110,7 @@ TEST_CASE("a domain with straight sides keeps its area, and each group its lengt
     for (const auto& [metric, field] : metrics(mesh)) {
       INFO(name << "; " << metric);
       AdaptOptions options;
+      options.method = Method::paper;
       options.max_sweeps = 10;
       Adapter<2> adapter(mesh, field, options);
       (void)adapter.run();
@@ -121,6 +124,7 @@ TEST_CASE("a domain with straight sides keeps its area, and each group its lengt
 TEST_CASE("the same run gives the same bits, recorded or not, at once or step by step among others") {
   for_each_problem([](const Mesh<2>& mesh, const MetricField<2>& field) {
     AdaptOptions options;
+    options.method = Method::paper;
     options.smoothing = Smoothing::between;
     options.max_sweeps = 3;
     Adapter<2> once(mesh, field, options);
@@ -174,6 +178,7 @@ TEST_CASE("progress begins near 0, never passes 1, and ends with 1") {
     shares.push_back(share);
   };
   AdaptOptions options;
+  options.method = Method::paper;
   options.max_sweeps = 20;
   Adapter<2> adapter(mesh, metrics(mesh)[0].field, options, context);
   REQUIRE(adapter.run().ok());
@@ -310,6 +315,7 @@ TEST_CASE("hexahedra are refined by the same loop: valid after every step, on th
     INFO(text);
     const auto field = formula<3>(text);
     AdaptOptions options;
+    options.method = Method::paper;
     options.max_sweeps = 3;
     options.max_iterations = 4;
     Adapter<3> adapter(mesh, field, options);

@@ -4,8 +4,11 @@
 
 using namespace pillowmesh;
 
-TEST_CASE("the defaults are the paper's method") {
+TEST_CASE("by default quads are adapted in full, and layers are the paper's") {
   const AdaptOptions options;
+  CHECK(options.method == Method::full);
+  CHECK(options.effort == Effort::normal);
+  CHECK(options.align == 1.0);
   CHECK(options.threshold == 2.0);
   CHECK(options.thickness == 1);
   CHECK(options.augment == -1);  // one ring in 2D, as the paper; none in 3D
@@ -24,6 +27,15 @@ TEST_CASE("each option is set by its command-line name") {
   CHECK(set_option(options, "max-cells", "123456").ok());
   CHECK(set_option(options, "max-sweeps", "0").ok());
   CHECK(set_option(options, "method", "paper").ok());
+  CHECK(set_option(options, "effort", "best").ok());
+  CHECK(set_option(options, "align", "0.25").ok());
+  CHECK(set_option(options, "seed", "17").ok());
+  CHECK(options.method == Method::paper);
+  CHECK(options.effort == Effort::best);
+  CHECK(options.align == 0.25);
+  CHECK(options.seed == 17);
+  CHECK(set_option(options, "method", "full").ok());
+  CHECK(options.method == Method::full);
   CHECK(options.threshold == 1.4);
   CHECK(options.smoothing == Smoothing::between);
   CHECK(options.dice == 3);
@@ -42,7 +54,8 @@ TEST_CASE("a wrong value is refused with the option, what is allowed and what wa
   const std::pair<const char*, const char*> wrong[] = {
       {"threshold", "1"},  {"threshold", "two"}, {"threshold", ""},   {"threshold", "nan"}, {"threshold", "2x"},
       {"dice", "0"},       {"dice", "1.5"},      {"dice", "17"},      {"thickness", "0"},   {"augment", "-1"},
-      {"max-cells", "0"},  {"max-cells", "many"}, {"max-sweeps", "-1"}, {"smooth", "always"}, {"max-iterations", "0"}};
+      {"max-cells", "0"},  {"max-cells", "many"}, {"max-sweeps", "-1"}, {"smooth", "always"}, {"max-iterations", "0"},
+      {"method", "both"},  {"effort", "more"},   {"align", "1.5"},    {"seed", "-1"}};
   for (const auto& [name, value] : wrong) {
     AdaptOptions options;
     const Status s = set_option(options, name, value);

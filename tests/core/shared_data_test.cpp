@@ -64,6 +64,7 @@ struct Adapted {
 /// Runs the paper's method and validates every fifth mesh that a layer made, every fifth sweep's, and the last.
 Adapted adapt(const Mesh<3>& mesh, const char* formula, const char* smooth = "end", const char* sweeps = "10") {
   AdaptOptions options;
+  options.method = Method::paper;
   REQUIRE(set_option(options, "smooth", smooth).ok());
   REQUIRE(set_option(options, "max-sweeps", sweeps).ok());
   Adapter<3> adapter(mesh, *MetricField<3>::from_formula(formula), options);

@@ -23,6 +23,7 @@ struct Picture {
 template <int Dim>
 AdaptOptions recorded(Smoothing smoothing, int dice) {
   AdaptOptions options;
+  options.method = Method::paper;
   options.smoothing = smoothing;
   options.dice = dice;
   options.max_sweeps = 4;

@@ -45,6 +45,7 @@ void check_row(const Statistics& s, const Row& row, double unit) {
 Report adapt(const char* name, std::initializer_list<std::pair<const char*, const char*>> settings) {
   const auto [mesh, field] = problem<2>(name);
   AdaptOptions options;
+  options.method = Method::paper;
   for (const auto& [key, value] : settings) REQUIRE(set_option(options, key, value).ok());
   Adapter<2> adapter(mesh, field, options);
   for (bool more = true; more;) {

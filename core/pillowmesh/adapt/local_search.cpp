@@ -98,7 +98,7 @@ void LocalSearch::try_collapses(CellId c) {
 void LocalSearch::try_openings(CellId c) {
   for (int i = 0; i < 4 && mesh_.alive(c); ++i) {
     const VertexId v = around(mesh_, c, i);
-    QuadStar star;
+    OrderedStar star;
     // Each vertex at one of its cells.
     if (mesh_.support[v].dim != 2 || mesh_.vertex_cell[v] != c || !find_star(mesh_, v, star)) continue;
     const int n = star.count;

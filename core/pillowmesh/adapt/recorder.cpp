@@ -158,8 +158,10 @@ void Recorder<Dim>::change(Operator op, const Mesh<2>& mesh, const Journal& jour
   for (std::size_t i = 0; i < journal.vertices().size(); ++i) {
     const VertexId v = journal.vertices()[i];
     const auto& old = journal.old_vertices()[i];
-    if (mesh.vertex_cell[v] == kNone) continue;
-    if (old.cell == kNone)
+    if (mesh.vertex_cell[v] == kNone) {
+      // Its number may be taken later: going back must find it where it was.
+      if (old.cell != kNone) add_vertex(v, old.point);
+    } else if (old.cell == kNone)
       add_vertex(v, op == Operator::open ? origin : mesh.points[v]);
     else if (old.point != mesh.points[v])
       add_vertex(v, old.point);

@@ -71,7 +71,7 @@ class Trial {
   std::vector<std::int8_t> ideal_;
   std::vector<Index> changed_;
   Index clock_ = 1;
-  QuadStar star_;
+  OrderedStar star_;
 };
 
 }  // namespace pillowmesh

@@ -97,7 +97,7 @@ bool plan_chord_collapse(const Mesh<2>& mesh, const Chord& chord, Cavity& cavity
   std::sort(inside.begin(), inside.end());
   inside.erase(std::unique(inside.begin(), inside.end()), inside.end());
   cavity.old_cells = inside;
-  QuadStar star;
+  OrderedStar star;
   for (const VertexId d : cavity.removed) {
     if (!find_star(mesh, d, star)) return false;
     for (int n = 0; n < star.count; ++n) cavity.old_cells.push_back(star.cell[n]);

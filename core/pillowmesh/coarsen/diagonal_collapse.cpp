@@ -1,6 +1,6 @@
 #include "pillowmesh/coarsen/diagonal_collapse.h"
 
-#include "pillowmesh/mesh/quad_star.h"
+#include "pillowmesh/mesh/ordered_star.h"
 
 namespace pillowmesh {
 
@@ -8,7 +8,7 @@ bool plan_diagonal_collapse(const Mesh<2>& mesh, CellId c, int i, Cavity& cavity
   const VertexId d = around(mesh, c, i), x = around(mesh, c, i + 1), k = around(mesh, c, i + 2),
                  y = around(mesh, c, i + 3);
   if (mesh.support[d].dim != 2) return false;
-  QuadStar star;
+  OrderedStar star;
   if (!find_star(mesh, d, star) || !star.closed) return false;
   cavity.clear();
   cavity.old_cells.push_back(c);
@@ -35,7 +35,7 @@ bool plan_diagonal_collapse(const Mesh<2>& mesh, CellId c, int i, Cavity& cavity
 }
 
 bool plan_doublet_removal(const Mesh<2>& mesh, VertexId v, Cavity& cavity) {
-  QuadStar star;
+  OrderedStar star;
   if (mesh.support[v].dim != 2 || !find_star(mesh, v, star) || !star.closed || star.count != 2) return false;
   const CellId c = star.cell[0], n = star.cell[1];
   if (mesh.region[c] != mesh.region[n]) return false;

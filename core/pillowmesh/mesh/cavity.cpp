@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pillowmesh/mesh/quad_star.h"
+#include "pillowmesh/mesh/ordered_star.h"
 
 namespace pillowmesh {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "pillowmesh/mesh/quad_star.h"
+#include "pillowmesh/mesh/ordered_star.h"
 
 namespace pillowmesh {
 

@@ -39,6 +39,24 @@ void measure_lengths(const Mesh<Dim>& mesh, const MetricField<Dim>& field, const
   report.edge_length = statistics(lengths);
 }
 
+/// Of the anisotropic edges: for an edge of direction e, sin^2(2 phi) = 4 c (1 - c) with c the share of one eigenvector
+/// in e, and with r = det |e|^2 / (e' M e) that is 4 (r (t - r) - det) / (t^2 - 4 det), t = tr M.
+double mean_misalignment(const Mesh<2>& mesh, const MetricField<2>& field) {
+  double sum = 0.0;
+  std::int64_t count = 0;
+  for (const auto& [a, b] : unique_edges(mesh)) {
+    const Point<2> e = mesh.points[b] - mesh.points[a];
+    const SymTensor<2> M = field.evaluate(Point<2>(0.5 * (mesh.points[a] + mesh.points[b])));
+    const double t = M.m[0] + M.m[2], det = determinant(M);
+    // The eigenvalues' ratio is above 2^2 where t^2 / det is above (4 + 1)^2 / 4.
+    if (!(t * t > 6.25 * det)) continue;
+    const double r = det * e.squaredNorm() / dot(M, e, e);
+    sum += 4.0 * (r * (t - r) - det) / (t * t - 4.0 * det);
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
 template <int Dim>
 void measure_cells(const Mesh<Dim>& mesh, const MetricField<Dim>& field, const LengthOptions& options, Report& report) {
   std::vector<CellId> cells;
@@ -75,6 +93,7 @@ Report measure(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
   options.panel = default_panel<Dim>(mesh.points);
   measure_lengths(mesh, field, options, report);
   measure_cells(mesh, field, options, report);
+  if constexpr (Dim == 2) report.misalignment = mean_misalignment(mesh, field);
   for (const unsigned char mark : irregular_vertices(mesh)) report.irregular_vertices += mark;
   report.complexity = complexity(mesh, field, VolumeOptions::for_panel(Dim, options.panel, Dim == 2 ? 1e-4 : 3e-4));
   return report;

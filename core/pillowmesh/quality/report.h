@@ -23,6 +23,9 @@ struct Report {
   double scaled_jacobian_min = 0.0;
   double scaled_jacobian_mean = 0.0;
   Index irregular_vertices = 0;  ///< inside: valence other than 4 (2D) or an irregular edge at it (3D)
+  /// 2D: mean of sin^2(2 phi) over the edges where sizes differ by more than a factor of 2, phi the angle in space to
+  /// the nearest eigenvector of the metric in the edge's middle: 0 aligned, 0.5 at random. 0 where there is none.
+  double misalignment = 0.0;
   double complexity = 0.0;       ///< integral of sqrt(det M): the ideal number of cells
   bool valid = false;
   std::string defect;                              ///< the first defect's sentence when not valid

@@ -100,6 +100,7 @@ std::string to_json(const Report& report) {
   json.number("mean", report.scaled_jacobian_mean);
   json.close();
   json.integer("irregular_vertices", report.irregular_vertices);
+  if (report.dim == 2) json.number("misalignment", report.misalignment);
   json.number("complexity", report.complexity);
   json.boolean("valid", report.valid);
   if (!report.valid) json.string("defect", report.defect);

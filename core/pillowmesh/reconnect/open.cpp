@@ -2,7 +2,7 @@
 
 namespace pillowmesh {
 
-bool plan_opening(const Mesh<2>& mesh, VertexId v, const QuadStar& star, int first, int last, Cavity& cavity) {
+bool plan_opening(const Mesh<2>& mesh, VertexId v, const OrderedStar& star, int first, int last, Cavity& cavity) {
   const int turned = last - first;
   if (!star.closed || mesh.support[v].dim != 2 || turned < 2 || star.count - turned < 2) return false;
   cavity.clear();

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "pillowmesh/mesh/cavity.h"
-#include "pillowmesh/mesh/quad_star.h"
+#include "pillowmesh/mesh/ordered_star.h"
 
 namespace pillowmesh {
 
@@ -17,6 +17,6 @@ namespace pillowmesh {
 ///
 /// `star` is the star of v. \return false where it is not legal: on the boundary, where regions meet, or where a vertex
 /// with fewer than three cells would result. Cost: linear in the valence.
-bool plan_opening(const Mesh<2>& mesh, VertexId v, const QuadStar& star, int first, int last, Cavity& cavity);
+bool plan_opening(const Mesh<2>& mesh, VertexId v, const OrderedStar& star, int first, int last, Cavity& cavity);
 
 }  // namespace pillowmesh

@@ -1,6 +1,6 @@
 #include "pillowmesh/reconnect/rotate.h"
 
-#include "pillowmesh/mesh/quad_star.h"
+#include "pillowmesh/mesh/ordered_star.h"
 
 namespace pillowmesh {
 

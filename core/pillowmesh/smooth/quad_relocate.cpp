@@ -229,18 +229,19 @@ bool QuadRelocator::collect(VertexId v) {
   return true;
 }
 
-double QuadRelocator::try_at(const Point<2>& x, bool) {
+/// Energy of the corners with the vertex at x; what is above `limit` is not added up to the end.
+double QuadRelocator::try_at(const Point<2>& x, double limit) {
   size_at_ = background_.at(x);
   const bool aligned = weights_.alignment > 0.0;
   for (int k = 0; k < spoke_count_; ++k) spokes_[k].next = edge_term(background_, x, size_at_, spokes_[k].q, spokes_[k].H, aligned);
   double sum = 0.0;
   for (int k = 0; k < star_.count; ++k) {
     const Spoke &a = spokes_[k], &b = spokes_[k + 1 == spoke_count_ ? 0 : k + 1];
-    const Wedge& w = wedges_[k];
-    sum += corner(a.q - x, a.next, b.q - x, b.next);
-    sum += corner(w.o - a.q, w.far1, x - a.q, a.next);
-    sum += corner(x - b.q, b.next, w.o - b.q, w.far2);
-    if (!(sum < 1e300)) return sum;
+    Wedge& w = wedges_[k];
+    w.energy = corner(a.q - x, a.next, b.q - x, b.next) + corner(w.o - a.q, w.far1, x - a.q, a.next) +
+               corner(x - b.q, b.next, w.o - b.q, w.far2);
+    sum += w.energy;
+    if (!(sum < limit)) break;
   }
   return sum;
 }
@@ -251,7 +252,7 @@ bool QuadRelocator::derivatives(VertexId v, Derivatives& sum) {
 
   // Derivatives of the spokes' lengths and alignments.
   const SizeJet here = background_.jet(x);
-  std::array<EdgeSlope, QuadStar::most + 1> slope;
+  std::array<EdgeSlope, OrderedStar::most + 1> slope;
   for (int k = 0; k < spoke_count_; ++k) {
     Spoke& s = spokes_[k];
     const Point<2> e = s.q - x;
@@ -402,7 +403,7 @@ double QuadRelocator::relocate(VertexId v) {
     Point<2> y = x + scale * step;
     Index anchor = mesh_.anchor[v];
     if (support.dim == 1) y = slide(*mesh_.geometry, support, anchor, y);
-    const double after = try_at(y, true);
+    const double after = try_at(y, before);
     if (!(after < before + 1e-4 * scale * std::min(0.0, slope_along))) continue;
     if (journal != nullptr) journal->touch(v);
     touch_vertex(v);
@@ -416,8 +417,7 @@ double QuadRelocator::relocate(VertexId v) {
       edges_[w.cell][w.place] = spokes_[k].next;
       edges_[w.cell][(w.place + 3) & 3] = spokes_[n].next;
       const Spoke &a = spokes_[k], &b = spokes_[n];
-      energy_[w.cell] = corner(a.q - y, a.next, b.q - y, b.next) + corner(w.o - a.q, w.far1, y - a.q, a.next) +
-                        corner(y - b.q, b.next, w.o - b.q, w.far2) + corner(b.q - w.o, w.far2, a.q - w.o, w.far1);
+      energy_[w.cell] = w.energy + corner(b.q - w.o, w.far2, a.q - w.o, w.far1);
     }
     return before - after;
   }

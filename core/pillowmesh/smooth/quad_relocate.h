@@ -5,7 +5,7 @@
 
 #include "pillowmesh/mesh/boundary.h"
 #include "pillowmesh/mesh/cavity.h"
-#include "pillowmesh/mesh/quad_star.h"
+#include "pillowmesh/mesh/ordered_star.h"
 #include "pillowmesh/smooth/quad_energy.h"
 
 namespace pillowmesh {
@@ -85,10 +85,11 @@ class QuadRelocator {
     int place;
     Point<2> o;       ///< the opposite vertex
     EdgeTerm far1, far2;  ///< next -> opposite, opposite -> previous
+    double energy;        ///< of the three corners that change, where the vertex was tried last
   };
 
   bool collect(VertexId v);
-  [[nodiscard]] double try_at(const Point<2>& x, bool into_next);
+  [[nodiscard]] double try_at(const Point<2>& x, double limit);
   [[nodiscard]] double corner(const Point<2>& e1, const EdgeTerm& a, const Point<2>& e2, const EdgeTerm& b) const;
   void touch_cell(CellId c);
   void touch_vertex(VertexId v);
@@ -101,9 +102,9 @@ class QuadRelocator {
   std::vector<std::array<EdgeTerm, 4>> edges_;  ///< per cell and side
   std::vector<double> energy_;                  ///< per cell
 
-  QuadStar star_;
-  std::array<Spoke, QuadStar::most + 1> spokes_;
-  std::array<Wedge, QuadStar::most> wedges_;
+  OrderedStar star_;
+  std::array<Spoke, OrderedStar::most + 1> spokes_;
+  std::array<Wedge, OrderedStar::most> wedges_;
   int spoke_count_ = 0;
   SizeTensor size_at_{};
 

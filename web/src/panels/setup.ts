@@ -35,6 +35,31 @@ interface Choice {
 }
 
 const optionFields: readonly { name: OptionName; label: string; hint: string; choices?: readonly Choice[] }[] = [
+  {
+    name: 'method',
+    label: 'Method',
+    hint: 'The paper refines. Full adaptation of quads then coarsens, reconnects and aligns too.',
+    choices: [
+      { value: 'paper', label: 'the paper’s' },
+      { value: 'full', label: 'full' },
+    ],
+  },
+  {
+    name: 'effort',
+    label: 'Effort',
+    hint: 'How long full adaptation searches.',
+    choices: ['fast', 'normal', 'best'].map((value) => ({ value, label: value })),
+  },
+  {
+    name: 'align',
+    label: 'Align',
+    hint: 'Full adaptation: edges follow the directions of the metric.',
+    choices: [
+      { value: '0', label: 'no' },
+      { value: '0.5', label: 'somewhat' },
+      { value: '1', label: 'yes' },
+    ],
+  },
   { name: 'threshold', label: 'Threshold', hint: 'Edges longer than this in the metric are tagged.' },
   {
     name: 'smooth',

@@ -47,6 +47,11 @@ const kindLabels: Record<EventKind, string> = {
   dice: 'Dice',
   relocation: 'Smooth',
   iteration: 'Iteration',
+  rotate: 'Rotate',
+  collapse: 'Collapse',
+  open: 'Open',
+  chord_collapse: 'Row out',
+  chord_split: 'Row in',
 };
 
 export function makeTransport(actions: TransportActions): Transport {

@@ -52,6 +52,16 @@ export function captionOf(event: MeshEvent | undefined, mesh: ReplayMesh, thresh
       const moved = counted(delta.vertices.length, 'vertex moves', 'vertices move');
       return `${moved} to even out size and shape in the metric.`;
     }
+    case 'rotate':
+      return 'An edge is turned inside the hexagon of its two quads, and the vertices around are moved.';
+    case 'collapse':
+      return `A quad is removed by merging two opposite vertices; ${now()} are left.`;
+    case 'open':
+      return `A vertex is split along two of its edges, and a quad fills the gap; that gives ${now()}.`;
+    case 'chord_collapse':
+      return `A whole row is removed, from boundary to boundary or all around; ${now()} are left.`;
+    case 'chord_split':
+      return `A whole row is doubled, from boundary to boundary or all around; that gives ${now()}.`;
     case 'iteration':
       return `Iteration ${iteration} ends with ${now()}${longest(value)}.`;
   }

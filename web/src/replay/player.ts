@@ -13,6 +13,11 @@ const dwell: Record<EventKind, number> = {
   dice: 1200,
   relocation: 160,
   iteration: 900,
+  rotate: 500,
+  collapse: 500,
+  open: 500,
+  chord_collapse: 1100,
+  chord_split: 1100,
 };
 const longestAnimation = 520;
 /** Events that `auto` shows at pace 1 before it speeds up, by what factor each, and to what pace. */

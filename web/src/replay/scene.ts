@@ -1,5 +1,5 @@
 // What an event looks like: which edges, cells and facets stand out after it.
-import type { EventKind, MeshEvent } from '../../../wasm/events.ts';
+import { operatorKinds, type EventKind, type MeshEvent } from '../../../wasm/events.ts';
 
 /** What stands out beside the mesh. Vertices are those of the mesh after the event. */
 export interface Scene {
@@ -61,6 +61,12 @@ function waitingTags(events: readonly MeshEvent[], count: number): Int32Array {
 /** What happens between the tags of an iteration and its end. */
 const steps: ReadonlySet<EventKind> = new Set(['layer', 'shrink', 'connect']);
 
+/** The cells that an operator has made or changed. */
+function changedCells({ delta }: MeshEvent): Int32Array {
+  const corners = delta.newCorners.length / Math.max(1, delta.cells.length);
+  return delta.cells.filter((_, i) => delta.newCorners[i * corners] >= 0);
+}
+
 /** What stands out after events[0 .. count). Cost: linear in the events of the present iteration. */
 export function sceneAfter(events: readonly MeshEvent[], count: number): Scene {
   if (count === 0) return emptyScene;
@@ -83,6 +89,7 @@ export function sceneAfter(events: readonly MeshEvent[], count: number): Scene {
       };
     }
     default:
+      if (operatorKinds.has(event.kind)) return { ...emptyScene, buffer: changedCells(event) };
       return { ...emptyScene, tags };
   }
 }

@@ -6,7 +6,16 @@ export type MeshChoice =
   { kind: 'case'; name: string } | { kind: 'grid'; spec: string } | { kind: 'file'; name: string };
 
 /** Options of core/pillowmesh/adapt/options.h under their command-line names, as text. */
-export const optionDefaults = { threshold: '2', smooth: 'end', dice: '1', thickness: '1', augment: 'auto' } as const;
+export const optionDefaults = {
+  method: 'paper',
+  effort: 'normal',
+  align: '1',
+  threshold: '2',
+  smooth: 'end',
+  dice: '1',
+  thickness: '1',
+  augment: 'auto',
+} as const;
 export type OptionName = keyof typeof optionDefaults;
 export type Options = Record<OptionName, string>;
 

@@ -31,7 +31,7 @@ inline int place_of(const Mesh<2>& mesh, CellId c, VertexId v) {
 inline HalfFacetId twin_of_side(const Mesh<2>& mesh, CellId c, int side) { return mesh.twins[c][kSideFacet[side & 3]]; }
 
 /// The cells at a vertex counterclockwise; on the boundary from the one whose side out of the vertex is on the boundary.
-struct QuadStar {
+struct OrderedStar {
   static constexpr int most = 24;
   int count = 0;
   bool closed = false;  ///< inside: the last cell is next to the first
@@ -39,8 +39,8 @@ struct QuadStar {
   std::array<std::int8_t, most> place;  ///< of the vertex in the cell
 };
 
-/// \return false where more than QuadStar::most cells meet, or none. Cost: linear in the valence.
-inline bool find_star(const Mesh<2>& mesh, VertexId v, QuadStar& star) {
+/// \return false where more than OrderedStar::most cells meet, or none. Cost: linear in the valence.
+inline bool find_star(const Mesh<2>& mesh, VertexId v, OrderedStar& star) {
   CellId c = mesh.vertex_cell[v];
   star.count = 0;
   if (c == kNone) return false;
@@ -59,11 +59,11 @@ inline bool find_star(const Mesh<2>& mesh, VertexId v, QuadStar& star) {
       star.closed = true;
       break;
     }
-    if (steps > QuadStar::most) return false;
+    if (steps > OrderedStar::most) return false;
   }
   const CellId first = c;
   while (true) {
-    if (star.count == QuadStar::most) return false;
+    if (star.count == OrderedStar::most) return false;
     star.cell[star.count] = c;
     star.place[star.count++] = static_cast<std::int8_t>(i);
     const HalfFacetId twin = twin_of_side(mesh, c, i + 3);
