@@ -51,8 +51,9 @@ struct OptionHelp {
   const char* text;
 };
 constexpr OptionHelp kOptions[] = {
-    {"method", "full|paper",
-     "full (default): refine, coarsen, reconnect and relocate quads; hexahedra are refined by the paper's method"},
+    {"method", "auto|full|paper",
+     "full: refine, coarsen, reconnect and relocate quads; paper: refine and smooth, as for hexahedra; auto "
+     "(default): full, unless an option of the paper's method is given"},
     {"threshold", "L", "Refine edges with a metric length above L (default 2)"},
     {"effort", "fast|normal|best", "How long method full searches (default normal)"},
     {"align", "A", "Method full: how much edges follow the metric's directions, 0 to 1 (default 1)"},

@@ -10,8 +10,8 @@ endif()
 # The page downloads this: what is not hot is compiled for size. Link-time optimisation takes another eighth off, and
 # -Oz at the link keeps it from undoing the rest; the hot code keeps the speed of the -O2 that it is compiled with.
 string(JOIN "|" hot
-  "refine/" "smooth/" "quality/" "metric/(program|field|length|volume)" "adapt/(adapter|tagging)"
-  "mesh/(slide|topology|validate)")
+  "refine/(balance|buffer_layer|edge_tags|hull|layer|tag_inheritance|vertex_copies)" "smooth/" "quality/shape"
+  "metric/(background|program|field|length|volume)" "adapt/tagging" "mesh/(slide|topology)")
 foreach(source ${core_sources} ${wasm_sources})
   if(source MATCHES "pillowmesh/(${hot})|third_party")
     set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -O2 -flto)

@@ -6,7 +6,7 @@ using namespace pillowmesh;
 
 TEST_CASE("by default quads are adapted in full, and layers are the paper's") {
   const AdaptOptions options;
-  CHECK(options.method == Method::full);
+  CHECK(full_adaptation(options));
   CHECK(options.effort == Effort::normal);
   CHECK(options.align == 1.0);
   CHECK(options.threshold == 2.0);
@@ -74,4 +74,16 @@ TEST_CASE("an unknown option is refused by name") {
   const Status s = set_option(options, "treshold", "2");
   CHECK(s.code == StatusCode::usage);
   CHECK(s.message.find("--treshold") != std::string::npos);
+}
+
+TEST_CASE("an option of the paper's method chooses it, unless full adaptation is asked for") {
+  for (const auto& [name, value] : {std::pair("smooth", "none"), std::pair("dice", "2"), std::pair("thickness", "3")}) {
+    AdaptOptions options;
+    REQUIRE(set_option(options, name, value).ok());
+    CHECK_FALSE(full_adaptation(options));
+    REQUIRE(set_option(options, "method", "full").ok());
+    CHECK(full_adaptation(options));
+    REQUIRE(set_option(options, "method", "paper").ok());
+    CHECK_FALSE(full_adaptation(options));
+  }
 }

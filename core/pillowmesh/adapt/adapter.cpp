@@ -264,7 +264,7 @@ struct Adapter<Dim>::State {
     report_progress("done");
   }
 
-  [[nodiscard]] bool full() const { return Dim == 2 && options.method == Method::full; }
+  [[nodiscard]] bool full() const { return Dim == 2 && full_adaptation(options); }
 
   /// Full adaptation, after the layers: coarsen, reconnect, relocate.
   void improve() {

@@ -45,9 +45,10 @@ Status set_option(AdaptOptions& options, std::string_view name, std::string_view
     return Status::usage("--smooth is one of none, end, between, not '" + std::string(value) + "'");
   }
   if (name == "method") {
+    if (value == "auto") return options.method = Method::automatic, Status{};
     if (value == "full") return options.method = Method::full, Status{};
     if (value == "paper") return options.method = Method::paper, Status{};
-    return Status::usage("--method is one of full, paper, not '" + std::string(value) + "'");
+    return Status::usage("--method is one of auto, full, paper, not '" + std::string(value) + "'");
   }
   if (name == "effort") {
     if (value == "fast") return options.effort = Effort::fast, Status{};

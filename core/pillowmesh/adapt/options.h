@@ -18,6 +18,7 @@ enum class Smoothing : std::uint8_t {
 
 /// Which method adapts.
 enum class Method : std::uint8_t {
+  automatic,  ///< full, unless an option of the paper's method says otherwise: smoothing, dice, thickness
   full,   ///< refine, coarsen, reconnect and relocate (quads; hexahedra are refined as by `paper`)
   paper,  ///< refine and smooth, as the paper does
 };
@@ -26,7 +27,7 @@ enum class Method : std::uint8_t {
 enum class Effort : std::uint8_t { fast, normal, best };
 
 struct AdaptOptions {
-  Method method = Method::full;
+  Method method = Method::automatic;
   /// Full adaptation: fast is for pages that follow a moving metric, best for meshes that are kept.
   Effort effort = Effort::normal;
   /// Full adaptation: how much edges are drawn toward the eigenvectors of the metric where it is anisotropic, 0 to 1.
@@ -52,6 +53,12 @@ struct AdaptOptions {
   /// Keep events for replay (adapt/trace.h). Costs memory proportional to what changes.
   bool record = false;
 };
+
+/// Whether quads are adapted in full with these options.
+inline bool full_adaptation(const AdaptOptions& o) {
+  if (o.method != Method::automatic) return o.method == Method::full;
+  return o.smoothing == Smoothing::end && o.dice == 1 && o.thickness == 1;
+}
 
 /// Sets an option by its command-line name without dashes ("threshold", "smooth", "dice", ...).
 /// \return usage with the allowed values when name or value is wrong. The one place where names and values are parsed:

@@ -136,48 +136,50 @@ void Recorder<Dim>::dice(const Mesh<Dim>& mesh, int iteration) {
 }
 
 template <int Dim>
-void Recorder<Dim>::change(Operator op, const Mesh<2>& mesh, const Journal& journal, const Cavity& cavity, int iteration)
-  requires(Dim == 2)
-{
-  if (!on_) return;
-  static_assert(static_cast<int>(EventKind::chord_split) - static_cast<int>(EventKind::rotate) == kOperators - 1);
-  const auto kind = static_cast<EventKind>(static_cast<int>(EventKind::rotate) + static_cast<int>(op));
-  Event<2>& event = add(kind, mesh, iteration);
-  MeshDelta<2>& delta = event.delta;
-  delta.vertices_before = journal.vertices_before();
-  delta.cells_before = journal.cells_before();
-  // A vertex that a vertex was opened into leaves from there; others appear where they are.
-  Point<2> origin = mesh.points[cavity.around[0]];
-  for (std::size_t i = 0; i < journal.vertices().size(); ++i)
-    if (journal.vertices()[i] == cavity.around[0]) origin = journal.old_vertices()[i].point;
-  const auto add_vertex = [&](VertexId v, const Point<2>& old_point) {
-    delta.vertices.push_back(v);
-    delta.old_points.push_back(old_point);
-    delta.new_points.push_back(mesh.points[v]);
-  };
-  for (std::size_t i = 0; i < journal.vertices().size(); ++i) {
-    const VertexId v = journal.vertices()[i];
-    const auto& old = journal.old_vertices()[i];
-    if (mesh.vertex_cell[v] == kNone) {
-      // Its number may be taken later: going back must find it where it was.
-      if (old.cell != kNone) add_vertex(v, old.point);
-    } else if (old.cell == kNone)
+void Recorder<Dim>::change([[maybe_unused]] Operator op, [[maybe_unused]] const Mesh<Dim>& mesh,
+                           [[maybe_unused]] const Journal& journal, [[maybe_unused]] const Cavity& cavity,
+                           [[maybe_unused]] int iteration) {
+  if constexpr (Dim == 2) {
+    if (!on_) return;
+    static_assert(static_cast<int>(EventKind::chord_split) - static_cast<int>(EventKind::rotate) == kOperators - 1);
+    const auto kind = static_cast<EventKind>(static_cast<int>(EventKind::rotate) + static_cast<int>(op));
+    Event<2>& event = add(kind, mesh, iteration);
+    MeshDelta<2>& delta = event.delta;
+    delta.vertices_before = journal.vertices_before();
+    delta.cells_before = journal.cells_before();
+    // A vertex that a vertex was opened into leaves from there; others appear where they are.
+    Point<2> origin = mesh.points[cavity.around[0]];
+    for (std::size_t i = 0; i < journal.vertices().size(); ++i)
+      if (journal.vertices()[i] == cavity.around[0]) origin = journal.old_vertices()[i].point;
+    const auto add_vertex = [&](VertexId v, const Point<2>& old_point) {
+      delta.vertices.push_back(v);
+      delta.old_points.push_back(old_point);
+      delta.new_points.push_back(mesh.points[v]);
+    };
+    for (std::size_t i = 0; i < journal.vertices().size(); ++i) {
+      const VertexId v = journal.vertices()[i];
+      const auto& old = journal.old_vertices()[i];
+      if (mesh.vertex_cell[v] == kNone) {
+        // Its number may be taken later: going back must find it where it was.
+        if (old.cell != kNone) add_vertex(v, old.point);
+      } else if (old.cell == kNone)
+        add_vertex(v, op == Operator::open ? origin : mesh.points[v]);
+      else if (old.point != mesh.points[v])
+        add_vertex(v, old.point);
+    }
+    for (VertexId v = delta.vertices_before; v < mesh.vertex_count(); ++v)
       add_vertex(v, op == Operator::open ? origin : mesh.points[v]);
-    else if (old.point != mesh.points[v])
-      add_vertex(v, old.point);
+    const auto add_cell = [&](CellId c, const Corners<2>& old_corners) {
+      delta.cells.push_back(c);
+      delta.old_corners.push_back(old_corners);
+      delta.new_corners.push_back(mesh.cells[c]);
+      if (old_corners[0] != kNone) event.cells.push_back(c);
+    };
+    for (std::size_t i = 0; i < journal.cells().size(); ++i)
+      if (journal.old_cells()[i].corners != mesh.cells[journal.cells()[i]])
+        add_cell(journal.cells()[i], journal.old_cells()[i].corners);
+    for (CellId c = delta.cells_before; c < mesh.cell_count(); ++c) add_cell(c, dead_cell<2>());
   }
-  for (VertexId v = delta.vertices_before; v < mesh.vertex_count(); ++v)
-    add_vertex(v, op == Operator::open ? origin : mesh.points[v]);
-  const auto add_cell = [&](CellId c, const Corners<2>& old_corners) {
-    delta.cells.push_back(c);
-    delta.old_corners.push_back(old_corners);
-    delta.new_corners.push_back(mesh.cells[c]);
-    if (old_corners[0] != kNone) event.cells.push_back(c);
-  };
-  for (std::size_t i = 0; i < journal.cells().size(); ++i)
-    if (journal.old_cells()[i].corners != mesh.cells[journal.cells()[i]])
-      add_cell(journal.cells()[i], journal.old_cells()[i].corners);
-  for (CellId c = delta.cells_before; c < mesh.cell_count(); ++c) add_cell(c, dead_cell<2>());
 }
 
 template <int Dim>

@@ -26,9 +26,8 @@ class Recorder {
   void before_dice(const Mesh<Dim>& mesh);
   void dice(const Mesh<Dim>& mesh, int iteration);
 
-  /// A change of topology by full adaptation, with the relocation around it.
-  void change(Operator op, const Mesh<2>& mesh, const Journal& journal, const Cavity& cavity, int iteration)
-    requires(Dim == 2);
+  /// A change of topology by full adaptation, with the relocation around it; 2D only.
+  void change(Operator op, const Mesh<Dim>& mesh, const Journal& journal, const Cavity& cavity, int iteration);
 
   std::vector<Event<Dim>> take();
 

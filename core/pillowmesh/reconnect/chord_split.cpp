@@ -45,7 +45,9 @@ bool plan_chord_split(const Mesh<2>& mesh, const Chord& chord, Cavity& cavity) {
   std::vector<Pass> passes;
   for (std::size_t k = 0; k < count; ++k)
     passes.push_back({chord.cells[k].cell, chord.cells[k].side, middle(k), middle(k + 1)});
-  std::sort(passes.begin(), passes.end(), [](const Pass& a, const Pass& b) { return a.cell < b.cell; });
+  std::sort(passes.begin(), passes.end(), [](const Pass& a, const Pass& b) {
+    return a.cell != b.cell ? a.cell < b.cell : a.side < b.side;
+  });
   for (std::size_t k = 0; k < count; ++k) {
     const auto [c, side, in, out] = passes[k];
     if (mesh.region[c] != mesh.region[chord.cells[0].cell]) return false;
