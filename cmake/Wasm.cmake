@@ -20,6 +20,13 @@ foreach(source ${core_sources} ${wasm_sources})
   endif()
 endforeach()
 
+# clang 14 miscompiles these for WebAssembly when it packs scalars into SIMD lanes: sweeps then differ from native.
+foreach(source ${core_sources})
+  if(source MATCHES "pillowmesh/(smooth/quad_relocate|smooth/quad_descent|metric/background)")
+    set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -fno-slp-vectorize -fno-vectorize)
+  endif()
+endforeach()
+
 # Sources that ask which dimensions there are (mesh/any_mesh.h) are compiled for each module, the others once for all.
 set(by_dimension ${core_sources})
 list(FILTER by_dimension INCLUDE REGEX "pillowmesh/(io/io|mesh/primitives_parse)")

@@ -59,7 +59,7 @@ const numbers = ({ mesh, edge_length, shape, irregular_vertices, complexity, val
 describe('native and WebAssembly give the same mesh and the same numbers', () => {
   for (const { name } of cases(core))
     test(`case ${name}`, () => {
-      const options: Options = { 'max-cells': '12000' };
+      const options: Options = { 'max-cells': '12000', effort: 'fast' };
       const native = adaptNatively(['--case', name, ...flags(options)], 'mesh.vtu');
       const wasm = adaptInWasm({ kind: 'case', name }, null, options, 'mesh.vtu');
       expect(text(wasm.file) === text(native.file)).toBe(true);
@@ -67,6 +67,7 @@ describe('native and WebAssembly give the same mesh and the same numbers', () =>
     });
 
   const variants: Options[] = [
+    { effort: 'normal' },
     { smooth: 'none' },
     { smooth: 'between' },
     { dice: '2', threshold: '1.7' },
