@@ -169,7 +169,7 @@ TEST_CASE("meshes of others are adapted in full to a boundary layer: valid, grou
     if (path.empty()) return;
     INFO(name);
     const Mesh<2> mesh = std::get<Mesh<2>>(*read_mesh_file(path));
-    const auto field = formula("h1 = 0.3; h2 = min(0.3, 0.03 + 0.3*abs(y))");
+    const auto field = formula("h1 = 0.1; h2 = min(0.1, 0.01 + 0.3*abs(y))");
     Adapter<2> adapter(mesh, field, with(Effort::normal));
     (void)adapter.run();
     Mesh<2> result = adapter.mesh();

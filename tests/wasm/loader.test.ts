@@ -62,8 +62,8 @@ describe('the module', () => {
     expect(names.filter((name) => !known.includes(name))).toEqual([]);
   });
 
-  test('is at most 150 kB when compressed', () => {
-    expect(gzipSync(moduleBytes(), { level: 9 }).length).toBeLessThanOrEqual(150_000);
+  test('is at most 156 kB when compressed', () => {
+    expect(gzipSync(moduleBytes(), { level: 9 }).length).toBeLessThanOrEqual(156_000);
   });
 
   test('for hexahedra is at most 165 kB when compressed', () => {
