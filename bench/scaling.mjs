@@ -31,7 +31,7 @@ function runOwn(scale) {
   try {
     for (let i = 0; i < Number(options.repeat); ++i) {
       const { seconds, peakBytes, status, stderr } = timed(binary, ['adapt', '--case', options.case,
-        '--size-scale', String(scale), '--smooth', options.smooth, '--report', report], folder);
+        '--size-scale', String(scale), '--method', 'paper', '--smooth', options.smooth, '--report', report], folder);
       if (status !== 0 && status !== 1) throw new Failure(`pillowmesh ended with status ${status}:\n${stderr}`);
       const found = JSON.parse(readFileSync(report, 'utf8'));
       const adapting = found.seconds.total - found.seconds.read - found.seconds.measure - found.seconds.write;

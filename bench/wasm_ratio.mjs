@@ -18,7 +18,7 @@ const binary = join(root, 'build', 'release', 'bin', 'pillowmesh');
 const typescript = async (path) => (await runnerImport(join(root, path), { logLevel: 'error' })).module;
 
 function runNatively(name) {
-  const { seconds, status, stderr } = timed(binary, ['adapt', '--case', name, '-q'], root);
+  const { seconds, status, stderr } = timed(binary, ['adapt', '--case', name, '--method', 'paper', '-q'], root);
   if (status !== 0 && status !== 1) throw new Failure(`pillowmesh ended with status ${status}:\n${stderr}`);
   return seconds;
 }
