@@ -127,7 +127,7 @@ int run(int argc, char** argv) {
   adapt_app->add_option("-o,--output", adapt_flags.output, "Adapted mesh; its ending chooses the format")
       ->type_name("OUT");
   add_write(*adapt_app, adapt_flags.write, adapt_gmsh);
-  adapt_app->add_option("--steps", adapt_flags.steps, "Write the mesh after each iteration: DIR/step-000.vtu, ...")
+  adapt_app->add_option("--steps", adapt_flags.steps, "Write the mesh after each iteration, and the last: DIR/step-000.vtu, ...")
       ->type_name("DIR");
   adapt_app->add_option("--report", adapt_flags.report, "Write the indicators as JSON; - for stdout")
       ->type_name("R.json");

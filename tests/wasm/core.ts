@@ -64,6 +64,7 @@ export interface Report {
   irregular_vertices: number;
   complexity: number;
   valid: boolean;
+  operations: Record<string, number>;
 }
 
 export const reportOf = (session: Session): Report => JSON.parse(session.report()) as Report;

@@ -14,7 +14,8 @@ constexpr double kNoise = 0.001;      ///< a gain smaller than this is none
 constexpr double kChordGain = 0.03;   ///< expected of a chord to be tried, for each of its cells
 constexpr double kPoorCell = 0.1;     ///< energy above which a cell is looked at
 /// What a cell is worth beyond its energy. An opening is relaxed from a sliver and judged too early more often than a
-/// collapse; without this the search loses cells while it is hot.
+/// collapse; without this the search loses cells. Opening and collapsing again cannot go on for ever: what one may cost
+/// the other must gain.
 constexpr double kCellBonus = 0.1;
 
 int square(int a) { return a * a; }

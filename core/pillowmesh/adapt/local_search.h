@@ -8,8 +8,9 @@
 namespace pillowmesh {
 
 /// Tries rotations, collapses and openings around irregular vertices and badly sized cells, at a temperature: a change
-/// that raises the energy by dE is kept with the probability exp(-dE / T) (Metropolis). At T = 0 only where something has
-/// changed since a cell was last looked at.
+/// that raises the energy by dE is kept with the probability exp(-dE / T) (Metropolis), where a cell more counts as a
+/// little less energy, at any temperature (kCellBonus). At T = 0 only where something has changed since a cell was last
+/// looked at.
 class LocalSearch {
  public:
   /// Must not outlive `trial`.

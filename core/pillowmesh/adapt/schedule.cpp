@@ -11,13 +11,13 @@ constexpr std::int64_t kMovesPerStep = 4000;
 constexpr int kRelaxSweeps = 5;
 
 /// How much is spent. Temperatures fall geometrically.
-struct Effort_ {
+struct Budget {
   int hot_passes;
   double hot, cool;
   int cold_passes, polish_rounds;
   int relax_sweeps, settle_sweeps;
 };
-Effort_ effort_of(Effort effort) {
+Budget budget_of(Effort effort) {
   switch (effort) {
     case Effort::fast: return {0, 0.0, 0.0, 1, 0, 4, 4};
     case Effort::normal: return {12, 0.4, 0.1, 6, 2, 20, 40};
@@ -53,12 +53,12 @@ Schedule::Schedule(Mesh<2>& mesh, const MetricField<2>& field, const AdaptOption
       descent_(mesh, trial_.relocator) {
   if (options.record)
     trial_.kept = [this](Operator op, const Journal& journal) { recorder_.change(op, mesh_, journal, trial_.cavity, iteration_); };
-  hot_passes_ = effort_of(options.effort).hot_passes;
-  cold_passes_ = effort_of(options.effort).cold_passes;
+  hot_passes_ = budget_of(options.effort).hot_passes;
+  cold_passes_ = budget_of(options.effort).cold_passes;
 }
 
 double Schedule::temperature(int pass) const {
-  const Effort_ e = effort_of(options_.effort);
+  const Budget e = budget_of(options_.effort);
   if (pass >= hot_passes_) return 0.0;
   if (hot_passes_ == 1) return e.hot;
   return e.hot * portable::pow(e.cool / e.hot, static_cast<double>(pass) / (hot_passes_ - 1));
@@ -117,7 +117,7 @@ void Schedule::end_pass() {
 }
 
 void Schedule::end_polish_round() {
-  if (polish_ == effort_of(options_.effort).polish_rounds || (polish_ > 0 && search_.kept() == 0)) {
+  if (polish_ == budget_of(options_.effort).polish_rounds || (polish_ > 0 && search_.kept() == 0)) {
     stage_ = Stage::settle;
     sweeps_ = 0;
     return;
@@ -130,14 +130,14 @@ void Schedule::end_polish_round() {
 }
 
 bool Schedule::step() {
-  const Effort_ effort = effort_of(options_.effort);
+  const Budget budget = budget_of(options_.effort);
   switch (stage_) {
     case Stage::relax:
       // Sweeps take out what is crumpled, descent then moves whole rows.
       if (sweeps_ < kRelaxSweeps) {
         if (!sweeping_) begin_sweep();
         continue_sweep();
-      } else if (!descend(kRelaxSweeps + effort.relax_sweeps)) {
+      } else if (!descend(kRelaxSweeps + budget.relax_sweeps)) {
         next_pass();
       }
       break;
@@ -155,7 +155,7 @@ bool Schedule::step() {
       }
       break;
     case Stage::settle:
-      if (!descend(effort.settle_sweeps)) stage_ = Stage::done;
+      if (!descend(budget.settle_sweeps)) stage_ = Stage::done;
       break;
     case Stage::done: break;
   }

@@ -25,10 +25,8 @@ bool QuadDescent::find_direction() {
     if (support.dim == 2) {
       z = d.step();
     } else {
-      const Geometry<2>& geometry = *mesh_.geometry;
-      const auto& f = geometry.facets[mesh_.anchor[v]];
-      const Point<2> t = (geometry.points[f[1]] - geometry.points[f[0]]).normalized();
-      z = d.step_along(t) * t;
+      const Point<2> t = curve_direction(mesh_, v);
+      z = d.step_along(t);
       r = t.dot(r) * t;
     }
     product += z.dot(r);

@@ -44,18 +44,37 @@ inline double misalignment(const Shape2& G, const Point<2>& e) {
   return 4.0 * (r * (t - r) - 1.0) / (t * t);
 }
 
-/// Energy of a corner whose edges e1, e2 are in counterclockwise order; infinite when it is degenerate or inside out.
+/// What the energy is made of besides sizes and angles.
+struct EnergyWeights {
+  double alignment = 0.0;  ///< of edges with the eigenvectors of M
+  /// > 0: d is replaced by (d + sqrt(d^2 + 4 delta^2)) / 2, so that inverted corners have an energy too.
+  double delta = 0.0;
+  /// Weight of sum max(0, shape_floor - eta)^2 over corners.
+  double shape = 0.0;
+  double shape_floor = 0.65;
+};
+
+/// Energy of a corner whose edges e1, e2 are in counterclockwise order; infinite when it is degenerate or inside out and
+/// delta is 0.
 inline double corner_energy(const Point<2>& e1, const EdgeTerm& a, const Point<2>& e2, const EdgeTerm& b,
-                            double alignment) {
+                            const EnergyWeights& weights) {
   const double cross = e1[0] * e2[1] - e1[1] * e2[0];
-  if (!(cross > 0)) return std::numeric_limits<double>::infinity();
+  if (weights.delta == 0.0 && !(cross > 0)) return std::numeric_limits<double>::infinity();
   const double g11 = a.g11 + b.g11, g12 = a.g12 + b.g12, g22 = a.g22 + b.g22;  // twice G: the factor cancels
   const double q1 = g11 * e1[0] * e1[0] + 2.0 * g12 * e1[0] * e1[1] + g22 * e1[1] * e1[1];
   const double q2 = g11 * e2[0] * e2[0] + 2.0 * g12 * e2[0] * e2[1] + g22 * e2[1] * e2[1];
-  const double L1 = a.l * a.l, L2 = b.l * b.l;
-  const double d = cross * std::sqrt((g11 * g22 - g12 * g12) * (L1 * L2) / (q1 * q2));
-  const double T = L1 + L2;
-  return 0.25 * (d * (0.5 * T - 2.0 + 0.5 * alignment * (a.s + b.s)) + 0.5 * T / d);
+  const double L1 = a.l * a.l, L2 = b.l * b.l, T = L1 + L2;
+  const double area = cross * std::sqrt((g11 * g22 - g12 * g12) * (L1 * L2) / (q1 * q2));
+  double d = area;
+  if (weights.delta > 0.0) d = 0.5 * (d + std::sqrt(d * d + 4.0 * weights.delta * weights.delta));
+  double E = 0.25 * (d * (0.5 * T - 2.0 + 0.5 * weights.alignment * (a.s + b.s)) + 0.5 * T / d);
+  if (weights.shape > 0.0) {
+    const double dot = g11 * e1[0] * e2[0] + g12 * (e1[0] * e2[1] + e1[1] * e2[0]) + g22 * e1[1] * e2[1];
+    const double eta = 2.0 * area / (T - dot * std::sqrt(L1 * L2 / (q1 * q2)));
+    const double lack = weights.shape_floor - eta;
+    if (lack > 0) E += weights.shape * lack * lack;
+  }
+  return E;
 }
 
 }  // namespace pillowmesh

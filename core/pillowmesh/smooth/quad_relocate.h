@@ -6,21 +6,17 @@
 #include "pillowmesh/mesh/boundary.h"
 #include "pillowmesh/mesh/cavity.h"
 #include "pillowmesh/mesh/ordered_star.h"
-#include "pillowmesh/smooth/quad_energy.h"
+#include "pillowmesh/smooth/quad_derivatives.h"
 
 namespace pillowmesh {
+
+/// Unit vector along the curve at a boundary vertex. \pre mesh.support[v].dim == 1
+Point<2> curve_direction(const Mesh<2>& mesh, VertexId v);
 
 /// The energy of every cell of a quad mesh, kept up to date where vertices move, and taken back with them.
 class QuadRelocator {
  public:
-  struct Weights {
-    double alignment = 0.0;  ///< of edges with the eigenvectors of M
-    /// > 0: d is replaced by (d + sqrt(d^2 + 4 delta^2)) / 2, so that inverted corners have an energy too.
-    double delta = 0.0;
-    /// Weight of sum max(0, shape_floor - eta)^2 over corners.
-    double shape = 0.0;
-    double shape_floor = 0.65;
-  };
+  using Weights = EnergyWeights;
 
   /// Mesh and background must outlive it. Cost: linear.
   QuadRelocator(Mesh<2>& mesh, Background& background, const Weights& weights);
@@ -33,17 +29,8 @@ class QuadRelocator {
   /// \return by how much the energy fell.
   double relocate(VertexId v);
 
-  /// Energy of the corners that a vertex takes part in (but for those opposite to it), its gradient by the vertex's
-  /// position, and its Hessian with the metric held fixed.
-  struct Derivatives {
-    double value = 0.0;
-    Point<2> gradient = Point<2>::Zero();
-    double xx = 0.0, xy = 0.0, yy = 0.0;
-    /// Newton's step with the eigenvalues of the Hessian made positive.
-    [[nodiscard]] Point<2> step() const;
-    /// The same along a unit vector.
-    [[nodiscard]] double step_along(const Point<2>& t) const;
-  };
+  using Derivatives = QuadDerivatives;
+  /// Of the corners that a vertex takes part in, but for those opposite to it.
   /// \return false where the vertex cannot be moved because too many cells meet there.
   bool derivatives(VertexId v, Derivatives& out);
 
@@ -90,7 +77,6 @@ class QuadRelocator {
 
   bool collect(VertexId v);
   [[nodiscard]] double try_at(const Point<2>& x, double limit);
-  [[nodiscard]] double corner(const Point<2>& e1, const EdgeTerm& a, const Point<2>& e2, const EdgeTerm& b) const;
   void touch_cell(CellId c);
   void touch_vertex(VertexId v);
   void add_up(CellId c);
