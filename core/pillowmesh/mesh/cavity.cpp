@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "pillowmesh/mesh/compact.h"
 #include "pillowmesh/mesh/ordered_star.h"
 
 namespace pillowmesh {
@@ -56,13 +57,7 @@ void Journal::touch(VertexId v) {
 }
 
 void Journal::undo() {
-  mesh_.cells.resize(cells_before_);
-  mesh_.twins.resize(cells_before_);
-  mesh_.region.resize(cells_before_);
-  mesh_.points.resize(vertices_before_);
-  mesh_.vertex_cell.resize(vertices_before_);
-  mesh_.support.resize(vertices_before_);
-  mesh_.anchor.resize(vertices_before_);
+  resize(mesh_, vertices_before_, cells_before_);
   for (std::size_t i = 0; i < touched_cells_.size(); ++i) {
     const CellId c = touched_cells_[i];
     mesh_.cells[c] = old_cells_[i].corners;
@@ -95,9 +90,7 @@ CellId Journal::take_cell() {
     touch_cell(c);
     return c;
   }
-  mesh_.cells.emplace_back();
-  mesh_.twins.emplace_back();
-  mesh_.region.emplace_back();
+  resize(mesh_, mesh_.vertex_count(), mesh_.cell_count() + 1);
   return mesh_.cell_count() - 1;
 }
 
@@ -109,10 +102,7 @@ VertexId Journal::take_vertex() {
     touch(v);
     return v;
   }
-  mesh_.points.emplace_back();
-  mesh_.vertex_cell.push_back(kNone);
-  mesh_.support.emplace_back();
-  mesh_.anchor.push_back(kNone);
+  resize(mesh_, mesh_.vertex_count() + 1, mesh_.cell_count());
   return mesh_.vertex_count() - 1;
 }
 

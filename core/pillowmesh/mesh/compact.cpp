@@ -3,6 +3,17 @@
 namespace pillowmesh {
 
 template <int Dim>
+void resize(Mesh<Dim>& mesh, Index vertices, Index cells) {
+  mesh.cells.resize(cells);
+  mesh.twins.resize(cells);
+  mesh.region.resize(cells);
+  mesh.points.resize(vertices);
+  mesh.vertex_cell.resize(vertices, kNone);
+  mesh.support.resize(vertices);
+  mesh.anchor.resize(vertices, kNone);
+}
+
+template <int Dim>
 void compact(Mesh<Dim>& mesh) {
   std::vector<Index> cell(mesh.cells.size(), kNone), vertex(mesh.points.size(), kNone);
   Index cells = 0, vertices = 0;
@@ -28,15 +39,11 @@ void compact(Mesh<Dim>& mesh) {
     mesh.support[n] = mesh.support[v];
     mesh.anchor[n] = mesh.anchor[v];
   }
-  mesh.cells.resize(cells);
-  mesh.twins.resize(cells);
-  mesh.region.resize(cells);
-  mesh.points.resize(vertices);
-  mesh.vertex_cell.resize(vertices);
-  mesh.support.resize(vertices);
-  mesh.anchor.resize(vertices);
+  resize(mesh, vertices, cells);
 }
 
+template void resize(Mesh<2>&, Index, Index);
+template void resize(Mesh<3>&, Index, Index);
 template void compact(Mesh<2>&);
 template void compact(Mesh<3>&);
 
