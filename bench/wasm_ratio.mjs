@@ -27,11 +27,17 @@ await main(async () => {
   const { modulesFrom } = await typescript('wasm/loader.ts');
   const { openSession } = await typescript('wasm/session.ts');
   const bytes = (name) => readFileSync(join(root, options.modules, `${name}.wasm`));
-  const modules = modulesFrom({ 2: bytes('pillowmesh'), 3: bytes('pillowmesh3d'), files: bytes('pillowmesh_files') });
+  const modules = modulesFrom({
+    2: bytes('pillowmesh'),
+    full: bytes('pillowmesh_full'),
+    3: bytes('pillowmesh3d'),
+    files: bytes('pillowmesh_files'),
+  });
 
   async function runInNode(name) {
     const start = performance.now();
     const { session } = await openSession(modules, { kind: 'case', name });
+    session.setOption('method', 'paper');
     session.begin();
     while (!session.step(100)) session.takeEvents();
     const { mesh } = JSON.parse(session.report());

@@ -1,6 +1,7 @@
-# The core behind a C interface (wasm/*_api.cpp), without generated JavaScript, in three modules, so that nobody
-# downloads what he does not use (docs/decisions/0010-three-modules.md): build/wasm/pillowmesh.wasm for quadrilaterals,
-# pillowmesh3d.wasm for hexahedra, pillowmesh_files.wasm for file formats. The functions exported are those that the
+# The core behind a C interface (wasm/*_api.cpp), without generated JavaScript, in several modules, so that nobody
+# downloads what he does not use (docs/decisions/0010-several-modules.md): build/wasm/pillowmesh.wasm for quadrilaterals by
+# the paper's method, pillowmesh_full.wasm for their full adaptation too, pillowmesh3d.wasm for hexahedra,
+# pillowmesh_files.wasm for file formats. The functions exported are those that the
 # interfaces mark with PM_API.
 file(GLOB wasm_sources CONFIGURE_DEPENDS wasm/*.cpp)
 if(NOT wasm_sources)
@@ -23,11 +24,14 @@ foreach(source ${core_sources} ${wasm_sources})
   set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -fno-slp-vectorize)
 endforeach()
 
-# Sources that ask which dimensions there are (mesh/any_mesh.h) are compiled for each module, the others once for all.
+# Sources that ask which dimensions there are (mesh/any_mesh.h), or which methods (adapt/options.h), are compiled for each
+# module, the others once for all.
 set(by_dimension ${core_sources})
 list(FILTER by_dimension INCLUDE REGEX "pillowmesh/(io/io|mesh/primitives_parse)")
+set(by_method ${core_sources})
+list(FILTER by_method INCLUDE REGEX "pillowmesh/adapt/adapter")
 set(shared ${core_sources})
-list(REMOVE_ITEM shared ${by_dimension})
+list(REMOVE_ITEM shared ${by_dimension} ${by_method})
 set_property(TARGET pillowmesh_core PROPERTY SOURCES ${shared})
 
 function(pillowmesh_module target)
@@ -45,7 +49,9 @@ function(pillowmesh_module target)
     OUTPUT_NAME ${module_OUTPUT} SUFFIX .wasm RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 endfunction()
 
-set(adapting wasm/c_api.cpp wasm/events.cpp ${by_dimension})
-pillowmesh_module(pillowmesh_wasm OUTPUT pillowmesh SOURCES ${adapting} DEFINITIONS PILLOWMESH_DIMENSION=2)
+set(adapting wasm/c_api.cpp wasm/events.cpp ${by_dimension} ${by_method})
+pillowmesh_module(pillowmesh_wasm OUTPUT pillowmesh SOURCES ${adapting}
+  DEFINITIONS PILLOWMESH_DIMENSION=2 PILLOWMESH_PAPER_ONLY)
+pillowmesh_module(pillowmesh_wasm_full OUTPUT pillowmesh_full SOURCES ${adapting} DEFINITIONS PILLOWMESH_DIMENSION=2)
 pillowmesh_module(pillowmesh_wasm3d OUTPUT pillowmesh3d SOURCES ${adapting} DEFINITIONS PILLOWMESH_DIMENSION=3)
 pillowmesh_module(pillowmesh_wasm_files OUTPUT pillowmesh_files SOURCES wasm/files_api.cpp ${by_dimension})

@@ -240,7 +240,10 @@ pm_status pm_set_option(pm_session* session, const char* name, uint32_t name_siz
 
 pm_status pm_begin(pm_session* session) {
   return session->with_metric([&](auto& p) -> Status {
+    constexpr int dim = std::decay_t<decltype(p)>::dimension;
     AdaptOptions options = session->options;
+    if (dim == 2 && !kHasFullAdaptation && full_adaptation(options))
+      return {StatusCode::other_build, "Full adaptation is left out of this build of pillowmesh."};
     options.record = true;
     p.adapter.emplace(p.mesh, *p.field, options);
     return {};

@@ -26,8 +26,9 @@ enum {
   PM_BAD_INPUT = 3,
   PM_CANCELLED = 4,
   PM_ILLEGAL = 5,
-  PM_OTHER_DIMENSION = 6,  ///< pm_load_*: not a mistake, but a mesh for the module of the other dimension
-  PM_MORE = 100            ///< pm_step: the run is not over
+  PM_OTHER_BUILD = 6,  ///< not a mistake, but for another module: pm_load_*: that of the other dimension, pm_begin:
+                       ///< that with full adaptation
+  PM_MORE = 100        ///< pm_step: the run is not over
 };
 typedef int32_t pm_status;
 
@@ -72,7 +73,7 @@ PM_API(pm_set_option)
 pm_status pm_set_option(pm_session* session, const char* name, uint32_t name_size, const char* value, uint32_t size);
 
 // The run.
-/// Starts from the loaded mesh, again if need be.
+/// Starts from the loaded mesh, again if need be. PM_OTHER_BUILD: the options ask for a method that is left out here.
 PM_API(pm_begin) pm_status pm_begin(pm_session* session);
 /// At most `steps` steps of the adapter. \return PM_MORE, or the run's outcome
 PM_API(pm_step) pm_status pm_step(pm_session* session, uint32_t steps);

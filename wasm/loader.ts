@@ -87,24 +87,26 @@ export interface FilesModule {
   readonly module: WebAssembly.Module;
 }
 
-/** Where the modules are: for quadrilaterals, for hexahedra, for file formats. */
-export interface ModuleSources<T = CoreSource> {
-  2: T;
-  3: T;
-  files: T;
-}
+/**
+ * Which core: for quadrilaterals by the paper's method, for hexahedra, or for quadrilaterals by either method. The first
+ * is the smallest.
+ */
+export type CoreName = 2 | 3 | 'full';
+
+/** Where the modules are: the cores, and that for file formats. */
+export type ModuleSources<T = CoreSource> = Record<CoreName | 'files', T>;
 
 /** The modules, each loaded when first asked for; after a failure it is tried again. */
 export interface Modules {
-  core(dim: 2 | 3): Promise<Core>;
+  core(name: CoreName): Promise<Core>;
   files(): Promise<FilesModule>;
 }
 
 export function modulesFrom(sources: ModuleSources): Modules {
-  const cores = new Map<2 | 3, Promise<Core>>();
+  const cores = new Map<CoreName, Promise<Core>>();
   const files = new Map<'files', Promise<FilesModule>>();
   return {
-    core: (dim) => once(cores, dim, () => loadCore(sources[dim])),
+    core: (name) => once(cores, name, () => loadCore(sources[name])),
     files: () => once(files, 'files', () => loadFiles(sources.files)),
   };
 }
@@ -194,7 +196,7 @@ async function load<E extends { memory: WebAssembly.Memory }>(
   return { exports, module };
 }
 
-/** The core for one dimension: pillowmesh.wasm or pillowmesh3d.wasm. */
+/** A core: pillowmesh.wasm, pillowmesh_full.wasm or pillowmesh3d.wasm. */
 export function loadCore(source: CoreSource): Promise<Core> {
   return load<Exports>(source, 'pm_create');
 }

@@ -18,7 +18,7 @@ export const statusNames = [
   'bad_input',
   'cancelled',
   'illegal',
-  'other_dimension',
+  'other_build',
 ] as const;
 export type StatusName = (typeof statusNames)[number];
 

@@ -62,6 +62,12 @@ export function cases(core: Core): Case[] {
   return JSON.parse(readText(core.exports, core.exports.pm_cases())) as Case[];
 }
 
+/** What a run takes besides its mesh. A case brings its own metric. */
+export interface Specification {
+  metric?: MetricSpec;
+  options: Options;
+}
+
 /** A session with its mesh, and what it takes to make it again. */
 export interface Opened {
   core: Core;
@@ -81,8 +87,49 @@ export async function openSession(modules: Modules, mesh: MeshSource): Promise<O
   try {
     return loaded(await modules.core(2), mesh);
   } catch (error) {
-    if (!(error instanceof CoreError && error.status === 'other_dimension')) throw error;
+    if (!forOtherCore(error)) throw error;
     return loaded(await modules.core(3), mesh);
+  }
+}
+
+/** Whether a core has answered that what is asked is for another core. */
+export function forOtherCore(error: unknown): boolean {
+  return error instanceof CoreError && error.status === 'other_build';
+}
+
+/**
+ * The same mesh, metric and options, and a run begun: on the same core or, when its options ask for full adaptation and
+ * the core leaves that out, on that which has it. What was opened is to be destroyed by the caller.
+ */
+export async function beginRun(modules: Modules, opened: Opened, specification: Specification): Promise<Opened> {
+  const begun = (core: Core): Opened => {
+    const next = prepared(core, opened.source, specification);
+    try {
+      next.session.begin();
+      return next;
+    } catch (error) {
+      if (!(error instanceof CrashError)) next.session.destroy();
+      throw error;
+    }
+  };
+  try {
+    return begun(opened.core);
+  } catch (error) {
+    if (!forOtherCore(error)) throw error;
+    return begun(await modules.core('full'));
+  }
+}
+
+/** A session with mesh, metric and options. */
+export function prepared(core: Core, source: Loadable, { metric, options }: Specification): Opened {
+  const opened = loaded(core, source);
+  try {
+    if (metric) opened.session.setMetric(metric);
+    for (const [name, value] of Object.entries(options)) opened.session.setOption(name, value);
+    return opened;
+  } catch (error) {
+    if (!(error instanceof CrashError)) opened.session.destroy();
+    throw error;
   }
 }
 

@@ -2,31 +2,31 @@
 // events, and answers measurements between the slices.
 import { decodeEvents } from './events.ts';
 import { writeFile } from './files.ts';
-import { CrashError, LoadError, modulesFrom, type Core, type Modules } from './loader.ts';
+import { CrashError, LoadError, modulesFrom, type Modules } from './loader.ts';
 import type { CallName, Calls, Failure, Reply, Request, RunResult, Setup } from './protocol.ts';
 import {
   CoreError,
-  Session,
+  beginRun,
   cases,
   openSession,
+  prepared,
   version,
-  type Loadable,
-  type MetricSpec,
+  type Opened,
   type Options,
+  type Session,
+  type Specification,
 } from './session.ts';
 
 const sliceMilliseconds = 12;
 
-/** What the session was made of: enough to make it again. */
-interface Recipe {
-  core: Core;
-  source: Loadable;
-  metric?: MetricSpec;
-  options: Options;
+/** The session, and what it was made of: enough to make it again. */
+interface Present extends Opened {
+  specification: Specification;
 }
 
 interface Run {
   id: number;
+  session: Session;
   paused: boolean;
   cancelled: boolean;
   wake: () => void;
@@ -67,10 +67,9 @@ function transferables(result: unknown): Transferable[] {
 export class Server {
   private readonly port: Port;
   private readonly modules: Modules;
-  /** Settled when the meshes asked for so far are open: one may wait for its module while other requests come in. */
+  /** Settled when what was asked for so far has its core: one may wait for its module while other requests come in. */
   private opened: Promise<unknown> = Promise.resolve();
-  private session: Session | null = null;
-  private recipe: Recipe | null = null;
+  private present: Present | null = null;
   private run: Run | null = null;
 
   constructor(port: Port, modules: Modules) {
@@ -80,16 +79,27 @@ export class Server {
 
   async handle(request: Request): Promise<void> {
     try {
-      const answer = this.opened.then(() => this.answer(request));
-      if (request.name === 'open') this.opened = answer.catch(() => undefined); // told to its own request
-      const result = await answer;
+      const result = await this.answer(request);
       this.port.postMessage({ type: 'answer', id: request.id, result }, transferables(result));
     } catch (error) {
       this.port.postMessage({ type: 'failure', id: request.id, failure: toFailure(error) }, []);
     }
   }
 
-  private async answer(request: Request): Promise<Calls[CallName]['result']> {
+  /** Begins in the order of the requests; a run's answer comes when it is over. */
+  private answer(request: Request): Promise<Calls[CallName]['result']> {
+    const queue = <T>(work: () => Promise<T>): Promise<T> => {
+      const done = this.opened.then(work);
+      this.opened = done.catch(() => undefined); // told to its own request
+      return done;
+    };
+    if (request.name === 'run')
+      return queue(() => this.begin(request.id, request.args.options)).then((run) => this.play(run));
+    if (request.name === 'open') return queue(() => this.perform(request));
+    return this.opened.then(() => this.perform(request));
+  }
+
+  private async perform(request: Exclude<Request, { name: 'run' }>): Promise<Calls[CallName]['result']> {
     switch (request.name) {
       case 'about': {
         const core = await this.modules.core(2);
@@ -98,20 +108,21 @@ export class Server {
       case 'open': {
         const { source, metric } = request.args;
         this.cancel();
-        const { session, ...made } = await openSession(this.modules, source);
-        this.prepare(session, { metric, options: {} });
-        this.session?.destroy();
-        this.session = session;
-        this.recipe = { ...made, metric, options: {} };
-        return session.mesh();
+        const opened = await openSession(this.modules, source);
+        try {
+          if (metric) opened.session.setMetric(metric);
+        } catch (error) {
+          if (!(error instanceof CrashError)) opened.session.destroy();
+          throw error;
+        }
+        this.replace({ ...opened, specification: { metric, options: {} } });
+        return opened.session.mesh();
       }
       case 'metric':
-        this.present().setMetric(request.args);
+        this.session().setMetric(request.args);
         this.cancel();
-        this.recipe!.metric = request.args;
+        this.present!.specification.metric = request.args;
         return null;
-      case 'run':
-        return this.adapt(request.id, request.args.options);
       case 'pause':
         if (this.run) this.run.paused = true;
         return null;
@@ -126,42 +137,29 @@ export class Server {
         return null;
       case 'measure': {
         const { points, cells, lengths } = request.args;
-        const shapes = this.present().cellShapes(points, cells);
+        const shapes = this.session().cellShapes(points, cells);
         return {
           shapes,
-          lengths: lengths ? this.present().edgeLengths(points, cells).lengths : new Float64Array(0),
+          lengths: lengths ? this.session().edgeLengths(points, cells).lengths : new Float64Array(0),
         };
       }
       case 'tensors':
-        return this.present().tensors(request.args.points);
+        return this.session().tensors(request.args.points);
       case 'write':
         return this.write(request.args.name, request.args.events);
       case 'report':
-        return this.present().report();
+        return this.session().report();
     }
   }
 
-  private present(): Session {
-    if (!this.session) throw new CoreError('usage', 'No mesh is open.');
-    return this.session;
+  private session(): Session {
+    if (!this.present) throw new CoreError('usage', 'No mesh is open.');
+    return this.present.session;
   }
 
-  private make(recipe: Recipe): Session {
-    const session = new Session(recipe.core);
-    session.load(recipe.source); // not refused: it was loaded before
-    this.prepare(session, recipe);
-    return session;
-  }
-
-  /** What a session needs for its run. One that is refused it is freed. */
-  private prepare(session: Session, { metric, options }: Pick<Recipe, 'metric' | 'options'>): void {
-    try {
-      if (metric) session.setMetric(metric);
-      for (const [name, value] of Object.entries(options)) session.setOption(name, value);
-    } catch (error) {
-      if (!(error instanceof CrashError)) session.destroy();
-      throw error;
-    }
+  private replace(present: Present): void {
+    this.present?.session.destroy();
+    this.present = present;
   }
 
   private cancel(): void {
@@ -170,21 +168,22 @@ export class Server {
     this.run.wake();
   }
 
-  /** Steps in slices until the run is over. Options start from their defaults every time. */
-  private async adapt(id: number, options: Options): Promise<RunResult> {
-    this.present();
+  /** Options start from their defaults every time. */
+  private async begin(id: number, options: Options): Promise<Run> {
+    this.session();
     this.cancel();
-    const recipe: Recipe = { ...this.recipe!, options };
-    const session = this.make(recipe);
-    this.session!.destroy();
-    this.session = session;
-    this.recipe = recipe;
+    const specification = { ...this.present!.specification, options };
+    const opened = await beginRun(this.modules, this.present!, specification);
+    this.replace({ ...opened, specification });
+    this.run = { id, session: opened.session, paused: false, cancelled: false, wake: () => undefined };
+    return this.run;
+  }
 
-    const run: Run = { id, paused: false, cancelled: false, wake: () => undefined };
-    this.run = run;
+  /** Steps in slices until the run is over. */
+  private async play(run: Run): Promise<RunResult> {
+    const { id, session } = run;
     const started = performance.now();
     let events = 0;
-    session.begin();
     for (;;) {
       const end = performance.now() + sliceMilliseconds;
       let outcome = session.step();
@@ -199,7 +198,7 @@ export class Server {
       while (run.paused && !run.cancelled) await new Promise<void>((resolve) => (run.wake = resolve));
       if (run.cancelled) {
         const outcome = { status: 'cancelled', message: 'The run was stopped.' } as const;
-        const live = this.session === session;
+        const live = this.present?.session === session;
         if (this.run === run) this.run = null;
         return { outcome, events, seconds: (performance.now() - started) / 1000, report: live ? session.report() : '' };
       }
@@ -219,9 +218,10 @@ export class Server {
     const files = name.endsWith('.json') ? null : await this.modules.files();
     const content = (session: Session): Uint8Array =>
       files ? writeFile(files, name, session.input()) : new TextEncoder().encode(session.report());
-    if (events === undefined) return content(this.present());
-    this.present();
-    const again = this.make(this.recipe!);
+    if (events === undefined) return content(this.session());
+    this.session();
+    const { core, source, specification } = this.present!;
+    const again = prepared(core, source, specification).session;
     try {
       let count = 0;
       if (events > 0) again.begin();

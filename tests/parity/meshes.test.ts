@@ -36,8 +36,9 @@ function adaptInWasm(
   formula: string | null,
   options: Options,
   name: string,
+  on: Core = core,
 ): { file: Uint8Array; report: Report } {
-  const session = open(core, source, formula === null ? undefined : { formula }, options);
+  const session = open(on, source, formula === null ? undefined : { formula }, options);
   runToEnd(session);
   const result = { file: write(session, name), report: reportOf(session) };
   session.destroy();
@@ -64,6 +65,15 @@ describe('native and WebAssembly give the same mesh and the same numbers', () =>
       const wasm = adaptInWasm({ kind: 'case', name }, null, options, 'mesh.vtu');
       expect(text(wasm.file) === text(native.file)).toBe(true);
       expect(native.report.operations.layers, 'a run that does something').toBeGreaterThan(0);
+      expect(numbers(wasm.report)).toEqual(numbers(native.report));
+    });
+
+  for (const name of ['iso2d', 'aniso2d', 'circle2d'])
+    test(`case ${name} by the paper's method, in the module for that alone`, async () => {
+      const options: Options = { method: 'paper' };
+      const native = adaptNatively(['--case', name, ...flags(options)], 'mesh.vtu');
+      const wasm = adaptInWasm({ kind: 'case', name }, null, options, 'mesh.vtu', await load(2));
+      expect(text(wasm.file) === text(native.file)).toBe(true);
       expect(numbers(wasm.report)).toEqual(numbers(native.report));
     });
 

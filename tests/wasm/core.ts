@@ -1,10 +1,10 @@
 // The built module, loaded once per test file.
 import { readFileSync } from 'node:fs';
 import { readFile, writeFile, type Input } from '../../wasm/files.ts';
-import { loadCore, loadFiles, type Core } from '../../wasm/loader.ts';
+import { loadCore, loadFiles, type Core, type CoreName } from '../../wasm/loader.ts';
 import {
-  CoreError,
   Session,
+  forOtherCore,
   type MeshSource,
   type MetricSpec,
   type Options,
@@ -12,10 +12,16 @@ import {
 } from '../../wasm/session.ts';
 
 const built = (name: string): URL => new URL(`../../build/wasm/${name}.wasm`, import.meta.url);
-export const modulePaths = { 2: built('pillowmesh'), 3: built('pillowmesh3d'), files: built('pillowmesh_files') };
-export const moduleBytes = (which: 2 | 3 | 'files' = 2): Buffer<ArrayBuffer> =>
+export const modulePaths = {
+  2: built('pillowmesh'),
+  full: built('pillowmesh_full'),
+  3: built('pillowmesh3d'),
+  files: built('pillowmesh_files'),
+};
+export const moduleBytes = (which: CoreName | 'files'): Buffer<ArrayBuffer> =>
   readFileSync(modulePaths[which]) as Buffer<ArrayBuffer>;
-export const load = (): Promise<Core> => loadCore(moduleBytes());
+/** The core for quadrilaterals with all methods, unless another is asked for. */
+export const load = (which: CoreName = 'full'): Promise<Core> => loadCore(moduleBytes(which));
 const solidCore = await loadCore(moduleBytes(3));
 const files = await loadFiles(moduleBytes('files'));
 
@@ -23,7 +29,7 @@ export const read = (name: string, bytes: Uint8Array): Input => readFile(files, 
 export const write = (session: Session, name: string): Uint8Array<ArrayBuffer> =>
   writeFile(files, name, session.input());
 
-/** openSession for tests that have all modules loaded; `core` is that for 2D. */
+/** openSession for tests that have all modules loaded; `core` is one for quadrilaterals. */
 function loaded(core: Core, source: MeshSource): Session {
   if (source.kind === 'file') {
     const { dim, bytes } = read(source.name, source.bytes);
@@ -37,7 +43,7 @@ function loaded(core: Core, source: MeshSource): Session {
     return session;
   } catch (error) {
     session.destroy();
-    if (core === solidCore || !(error instanceof CoreError && error.status === 'other_dimension')) throw error;
+    if (core === solidCore || !forOtherCore(error)) throw error;
     return loaded(solidCore, source);
   }
 }

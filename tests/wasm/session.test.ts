@@ -128,7 +128,7 @@ describe('what is refused is told in a sentence', () => {
       { kind: 'case', name: 'linear3d' },
       { kind: 'input', name: 'cube.msh', bytes },
     ] as const)
-      expect(refusal(() => session.load(source)).status).toBe('other_dimension');
+      expect(refusal(() => session.load(source)).status).toBe('other_build');
     session.destroy();
   });
 

@@ -5,7 +5,7 @@ import { Server } from '../../wasm/worker.ts';
 import { modulesFrom, type Modules } from '../../wasm/loader.ts';
 import { moduleBytes } from './core.ts';
 
-const all = { 2: moduleBytes(2), 3: moduleBytes(3), files: moduleBytes('files') };
+const all = { 2: moduleBytes(2), full: moduleBytes('full'), 3: moduleBytes(3), files: moduleBytes('files') };
 
 /** The worker's server in this thread: calls as promises, events collected. */
 class Bench {
@@ -114,6 +114,33 @@ describe('the worker', () => {
     expect(asked).not.toContain('files');
     expect((await bench.call('write', { name: 'a.vtu' })).length).toBeGreaterThan(1000);
     expect(asked).toContain('files');
+  });
+
+  test('fetches the module with full adaptation when a run asks for that, and goes on with the same mesh', async () => {
+    const asked: (number | string)[] = [];
+    const { core, files } = modulesFrom(all);
+    const bench = new Bench({ core: (name) => (asked.push(name), core(name)), files });
+    await bench.call('open', { source: { kind: 'grid', spec: 'grid:4,4:0,1,0,1' } });
+    await bench.call('metric', { formula: 'h = 0.03 + 0.1*x' });
+    const paper = JSON.parse((await bench.call('run', { options: { method: 'paper' } })).report);
+    expect(new Set(asked)).toEqual(new Set([2]));
+    const { report } = await bench.call('run', { options: { method: 'full', effort: 'fast' } });
+    expect(asked).toContain('full');
+    expect(JSON.parse(report).shape.mean).toBeGreaterThan(paper.shape.mean);
+    expect((await bench.call('run', { options: { method: 'paper' } })).outcome.status).toBe('ok');
+  });
+
+  test('cancels a run that waits for its module', async () => {
+    const { core, files } = modulesFrom(all);
+    const slow: Modules['core'] = async (name) => {
+      if (name === 'full') await pause(50);
+      return core(name);
+    };
+    const bench = new Bench({ core: slow, files });
+    await bench.call('open', iso2d);
+    const run = bench.call('run', { options: { method: 'full' } });
+    await bench.call('cancel', {});
+    expect((await run).outcome.status).toBe('cancelled');
   });
 
   test('answers in order what is asked while a mesh waits for its module', async () => {

@@ -264,11 +264,11 @@ struct Adapter<Dim>::State {
     report_progress("done");
   }
 
-  [[nodiscard]] bool full() const { return Dim == 2 && full_adaptation(options); }
+  [[nodiscard]] bool full() const { return Dim == 2 && kHasFullAdaptation && full_adaptation(options); }
 
   /// Full adaptation, after the layers: coarsen, reconnect, relocate.
   void improve() {
-    if constexpr (Dim == 2) {
+    if constexpr (Dim == 2 && kHasFullAdaptation) {
       const Stopwatch watch(improve_seconds);
       if (!schedule) schedule = std::make_unique<Schedule>(mesh, field, options, recorder, operations, iteration);
       const bool more = schedule->step();

@@ -54,6 +54,14 @@ struct AdaptOptions {
   bool record = false;
 };
 
+/// False in the WebAssembly module that is for the paper's method alone (cmake/Wasm.cmake).
+inline constexpr bool kHasFullAdaptation =
+#ifdef PILLOWMESH_PAPER_ONLY
+    false;
+#else
+    true;
+#endif
+
 /// Whether quads are adapted in full with these options.
 inline bool full_adaptation(const AdaptOptions& o) {
   if (o.method != Method::automatic) return o.method == Method::full;

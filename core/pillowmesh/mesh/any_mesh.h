@@ -33,7 +33,7 @@ using AnyMesh = AnyOf<Mesh>;
 /// Why a mesh of a dimension that this build leaves out is not made.
 template <int Dim>
 Status other_dimension() {
-  return {StatusCode::other_dimension,
+  return {StatusCode::other_build,
           Dim == 2 ? "the mesh is two-dimensional, and this build of pillowmesh is for three dimensions"
                    : "the mesh is three-dimensional, and this build of pillowmesh is for two dimensions"};
 }

@@ -15,7 +15,7 @@ enum class StatusCode : int {
   bad_input = 3,        ///< a file, mesh or field that cannot be used
   cancelled = 4,        ///< stopped on request; what is there is valid
   illegal = 5,          ///< an operator refused; the mesh is unchanged
-  other_dimension = 6,  ///< nothing wrong, but this build leaves the mesh's dimension out (mesh/any_mesh.h)
+  other_build = 6,  ///< nothing wrong, but this build leaves out what it takes (mesh/any_mesh.h, adapt/options.h)
 };
 
 /// Outcome of a fallible call. `message` is one sentence, empty when ok.

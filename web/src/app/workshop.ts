@@ -5,6 +5,7 @@ import type { CrashError } from '../../../wasm/loader.ts';
 import type { CallName, Calls, RunResult } from '../../../wasm/protocol.ts';
 import type { MeshArrays, MeshSource, MetricSpec } from '../../../wasm/session.ts';
 import planeUrl from '../../../build/wasm/pillowmesh.wasm?url';
+import fullUrl from '../../../build/wasm/pillowmesh_full.wasm?url';
 import solidUrl from '../../../build/wasm/pillowmesh3d.wasm?url';
 import filesUrl from '../../../build/wasm/pillowmesh_files.wasm?url';
 
@@ -75,7 +76,7 @@ export class Workshop {
   private connect(): Client {
     const worker = new Worker(new URL('../../../wasm/worker.ts', import.meta.url), { type: 'module' });
     const at = (url: string): string => new URL(url, location.href).href;
-    const modules = { 2: at(planeUrl), 3: at(solidUrl), files: at(filesUrl) };
+    const modules = { 2: at(planeUrl), full: at(fullUrl), 3: at(solidUrl), files: at(filesUrl) };
     const client = new Client(worker, modules, () => this.dimension);
     client.onEvents = (events, run) => {
       if (run === this.run) this.onEvents(events);
