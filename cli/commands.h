@@ -12,6 +12,8 @@ namespace pillowmesh::cli {
 struct ProblemFlags {
   std::string input;      ///< a file, a primitive (grid:...), or empty: the mesh of the case
   std::string metric;     ///< a formula
+  std::string metric_file;  ///< a .sol file
+  std::string background;   ///< the mesh that it belongs to; empty: the input
   std::string case_name;  ///< a name of the gallery
   double size_scale = 1.0;
 };
@@ -31,6 +33,11 @@ struct MeasureFlags {
   std::string report;
 };
 
+struct MetricFlags {
+  ProblemFlags problem;
+  std::string output;
+};
+
 struct ConvertFlags {
   std::string input, output;
   WriteOptions write;
@@ -38,6 +45,7 @@ struct ConvertFlags {
 
 int adapt(const AdaptFlags& flags);
 int measure(const MeasureFlags& flags);
+int metric(const MetricFlags& flags);
 int convert(const ConvertFlags& flags);
 int cases();
 

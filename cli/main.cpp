@@ -34,6 +34,10 @@ constexpr const char* kExitHelp =
 void add_problem(CLI::App& app, ProblemFlags& flags) {
   app.add_option("input", flags.input, "Mesh file or grid:...; may be left out with --case");
   app.add_option("--metric", flags.metric, "Metric formula")->type_name("FORMULA");
+  app.add_option("--metric-file", flags.metric_file, "Metric from a Medit .sol or .solb file: a size or tensor per vertex")
+      ->type_name("F.sol");
+  app.add_option("--background", flags.background, "Mesh that --metric-file belongs to; triangles and tets too (default: input)")
+      ->type_name("MESH");
   app.add_option("--case", flags.case_name, "Named case: its metric, and its mesh if none is given (see cases)")
       ->type_name("NAME");
   app.add_option("--size-scale", flags.size_scale, "Multiplies all sizes of the metric")->type_name("F");
@@ -95,7 +99,7 @@ Status set_gmsh_version(WriteOptions& write, const std::string& text) {
 /// CLI11's exceptions end here. \return the exit status
 int usage_error(const CLI::App& app, const CLI::Error& error, int argc, char** argv) {
   std::string hint;
-  const std::vector<std::string> commands{"adapt", "measure", "convert", "cases"};
+  const std::vector<std::string> commands{"adapt", "measure", "metric", "convert", "cases"};
   if (argc > 1 && app.get_subcommands().empty()) {
     const std::string near = argv[1][0] == '-' ? "" : nearest(argv[1], commands);
     if (!near.empty() && near != argv[1]) hint = "; did you mean '" + near + "'?";
@@ -151,6 +155,17 @@ int run(int argc, char** argv) {
                                   "  pillowmesh measure out.vtu --metric \"h = 0.1\" --report -\n\n") +
                       kMeshHelp + kMetricHelp + kExitHelp);
 
+  MetricFlags metric_flags;
+  CLI::App* metric_app = app.add_subcommand("metric", "Write a metric at the vertices of a mesh, as .sol");
+  add_problem(*metric_app, metric_flags.problem);
+  metric_app->add_option("-o,--output", metric_flags.output, "Medit .sol (text) or .solb (binary)")
+      ->type_name("F.sol")
+      ->required();
+  metric_app->footer(std::string("Examples:\n"
+                                 "  pillowmesh metric --case circle2d grid:200,200:-1,1,-1,1 -o circle.sol\n"
+                                 "  pillowmesh metric plate.mesh --metric \"h = 0.02 + 0.15*abs(x-2)\" -o plate.sol\n\n") +
+                     kMeshHelp + kMetricHelp + kExitHelp);
+
   ConvertFlags convert_flags;
   std::string convert_gmsh;
   CLI::App* convert_app = app.add_subcommand("convert", "Convert a mesh to another format; groups are kept");
@@ -182,6 +197,7 @@ int run(int argc, char** argv) {
 
   if (*adapt_app) return adapt(adapt_flags);
   if (*measure_app) return measure(measure_flags);
+  if (*metric_app) return metric(metric_flags);
   if (*convert_app) return convert(convert_flags);
   return cases();
 }

@@ -8,6 +8,12 @@
 namespace pillowmesh::cli {
 namespace {
 
+bool names_metric(const ProblemFlags& flags) {
+  return !flags.metric.empty() || !flags.case_name.empty() || !flags.metric_file.empty();
+}
+
+}  // namespace
+
 Expected<const Case*> named_case(const std::string& name) {
   if (const Case* c = find_case(name)) return c;
   std::vector<std::string> names;
@@ -20,6 +26,8 @@ Expected<const Case*> named_case(const std::string& name) {
   return Status::usage("there is no case '" + name + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
                        " (cases: " + all + ")");
 }
+
+namespace {
 
 /// Insertions, deletions and replacements that turn a into b.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -60,8 +68,10 @@ Expected<AnyMesh> problem_mesh(const ProblemFlags& flags) {
   if (!(flags.size_scale > 0.0 && flags.size_scale < 1e300))
     return Status::usage("--size-scale takes a number above 0");
   if (!flags.metric.empty() && !flags.case_name.empty()) return Status::usage("--metric and --case exclude each other");
-  if (flags.metric.empty() && flags.case_name.empty())
-    return Status::usage("a metric is missing: give --metric \"h = ...\" or --case NAME");
+  if (!names_metric(flags))
+    return Status::usage("a metric is missing: give --metric \"h = ...\", --metric-file F.sol or --case NAME");
+  if (!flags.background.empty() && flags.metric_file.empty())
+    return Status::usage("--background is the mesh of --metric-file, which is missing");
   if (!flags.case_name.empty()) {
     auto c = named_case(flags.case_name);
     if (!c) return c.status();
@@ -69,22 +79,6 @@ Expected<AnyMesh> problem_mesh(const ProblemFlags& flags) {
   }
   if (flags.input.empty()) return Status::usage("a mesh is missing: give a file, grid:... or --case NAME");
   return load_mesh(flags.input);
-}
-
-template <int Dim>
-Expected<MetricField<Dim>> problem_metric(const ProblemFlags& flags) {
-  std::string formula = flags.metric;
-  if (!flags.case_name.empty()) {
-    auto c = named_case(flags.case_name);
-    if (!c) return c.status();
-    if ((*c)->dim != Dim)
-      return Status::usage("the case " + flags.case_name + " is " + std::to_string((*c)->dim) +
-                           "-dimensional, but the mesh is " + std::to_string(Dim) + "-dimensional");
-    formula = (*c)->formula;
-  }
-  auto field = MetricField<Dim>::from_formula(formula);
-  if (!field || flags.size_scale == 1.0) return field;
-  return field->scaled(flags.size_scale);
 }
 
 Status check_not_input(const std::string& output, const std::string& input) {
@@ -104,8 +98,5 @@ Status check_output(const std::string& output, const std::string& input, const W
   if (std::filesystem::is_directory(output, ignored)) return Status::usage(output + " is a folder");
   return check_not_input(output, input);
 }
-
-template Expected<MetricField<2>> problem_metric<2>(const ProblemFlags&);
-template Expected<MetricField<3>> problem_metric<3>(const ProblemFlags&);
 
 }  // namespace pillowmesh::cli

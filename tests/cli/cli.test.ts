@@ -80,7 +80,7 @@ describe('help', () => {
     expect(ok('--version')).toMatch(/^pillowmesh \d+\.\d+\.\d+\n$/);
   });
 
-  test.each([[[]], [['adapt']], [['measure']], [['convert']], [['cases']]])('--help of %j shows an example', (names) => {
+  test.each([[[]], [['adapt']], [['measure']], [['metric']], [['convert']], [['cases']]])('--help of %j shows an example', (names) => {
     expect(ok(...names, '--help')).toMatch(/Examples?:\n {2}pillowmesh/);
   });
 
@@ -117,7 +117,8 @@ describe('usage errors have exit status 2', () => {
     ['no subcommand', [], ['subcommand']],
     ['an unknown subcommand', ['adpat'], ["did you mean 'adapt'?"]],
     ['an unknown option', ['adapt', '--case', 'iso2d', '--colour', 'red'], ['--colour', 'pillowmesh adapt --help']],
-    ['an option that is not there yet', ['adapt', '--case', 'iso2d', '--gradation', '1.3'], ['--gradation']],
+    ['a background without a metric file', ['adapt', '--case', 'iso2d', '--background', 'a.mesh'], ['--metric-file']],
+    ['a metric written as .vtk', ['metric', '--case', 'iso2d', '-o', 'a.vtk'], ['.sol']],
     ['the paper’s options with the other method', ['adapt', '--case', 'iso2d', '--method', 'full', '--dice', '2'], ['--dice', '--method paper']],
     ['an unknown effort', ['adapt', '--case', 'iso2d', '--effort', 'more'], ['fast, normal, best', "'more'"]],
     ['an unknown method', ['adapt', '--case', 'iso2d', '--method', 'magic'], ['--method', 'paper', "'magic'"]],
@@ -242,6 +243,49 @@ describe('convert', () => {
     ok('convert', data('plate_hole_v4.msh'), file('one.vtu'));
     ok('convert', data('plate_hole_v4.msh'), file('two.vtu'));
     expect(readFileSync(file('two.vtu'))).toEqual(readFileSync(file('one.vtu')));
+  });
+});
+
+describe('metric files', () => {
+  const grid = 'grid:30,30:0,1,0,1';
+  const formula = ['--metric', 'h1 = 0.1 + 0.2*x; h2 = 0.2; theta = y'];
+
+  test('a metric written at the vertices of a mesh measures as the formula that it samples', () => {
+    ok('metric', grid, ...formula, '-o', file('a.sol'));
+    ok('convert', grid, file('a.mesh'));
+    const of = (...args: string[]) => JSON.parse(ok('measure', ...args, '--report', '-')) as Report;
+    const exact = of('grid:4,4:0,1,0,1', ...formula);
+    for (const background of [grid, file('a.mesh')]) {
+      const sampled = of('grid:4,4:0,1,0,1', '--metric-file', file('a.sol'), '--background', background);
+      expect(sampled.complexity).toBeCloseTo(exact.complexity, 1);
+      expect(sampled.edge_length.mean).toBeCloseTo(exact.edge_length.mean, 3);
+    }
+    const own = of(file('a.mesh'), '--metric-file', file('a.sol')); // the background is the input
+    expect(own.complexity).toBeCloseTo(exact.complexity, 1);
+  });
+
+  test('triangles and tetrahedra are backgrounds though they cannot be adapted', () => {
+    const head = 'MeshVersionFormatted 2\nDimension 2\n';
+    writeFileSync(file('t.mesh'), `${head}Vertices\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\nTriangles\n2\n1 2 3 0\n1 3 4 0\nEnd\n`);
+    writeFileSync(file('t.sol'), `${head}SolAtVertices\n4\n1 1\n0.5\n0.5\n0.5\n0.5\nEnd\n`);
+    const report = JSON.parse(
+      ok('measure', 'grid:2,2:0,1,0,1', '--metric-file', file('t.sol'), '--background', file('t.mesh'), '--report', '-'),
+    ) as Report;
+    expect(report.complexity).toBeCloseTo(4, 6);
+    expect(report.edge_length.max).toBeCloseTo(1, 6);
+    refused(3, ['measure', file('t.mesh'), '--metric-file', file('t.sol')], 'triangles');
+  });
+
+  test('a .sol of another mesh, or with a bad tensor, is refused with a sentence', () => {
+    const head = 'MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n';
+    const use = (text: string) => {
+      writeFileSync(file('bad.sol'), head + text);
+      return ['adapt', 'grid:1,1:0,1,0,1', '--metric-file', file('bad.sol')];
+    };
+    refused(3, use('3\n1 1\n1 1 1\nEnd\n'), 'bad.sol', '3 vertices', 'has 4', '--background');
+    refused(3, use('4\n1 3\n1 0 1  1 0 1  1 2 1  1 0 1\nEnd\n'), 'bad.sol, line 6', 'vertex 3', 'positive definite');
+    refused(3, use('4\n1 1\n1 0 1 1\nEnd\n'), 'vertex 2', 'size 0');
+    refused(3, ['adapt', 'grid:1,1:0,1,0,1', '--metric-file', file('none.sol')], 'none.sol: cannot be read');
   });
 });
 

@@ -99,6 +99,26 @@ class MeshioReads(Case):
                 np.testing.assert_allclose(volume, 1 * 0.55 * 0.5)
                 np.testing.assert_allclose(p[:, 6] - p[:, 0], [[1, 0.55, 0.5]] * 12)
 
+    def test_a_mesh_and_its_metric_are_a_pair(self):
+        # meshio has no reader for .sol: the numbers are read as libmeshb says, mmg's order in space being Medit's.
+        for spec, formula, size in ((QUADS, "h1 = 0.1 + x; h2 = 0.3; theta = y", 3),
+                                    (HEXES, "h1 = 0.1 + x; h2 = 0.3; h3 = 1; theta = y", 6)):
+            with self.subTest(spec=spec):
+                points = read(self.convert(spec, "pair.mesh")).points
+                path = self.folder / "pair.sol"
+                subprocess.run([COMMAND, "metric", spec, "--metric", formula, "-o", str(path)], check=True)
+                words = path.read_text().split()
+                start = words.index("SolAtVertices") + 1
+                self.assertEqual(words[:4], ["MeshVersionFormatted", "2", "Dimension", str(2 if size == 3 else 3)])
+                self.assertEqual(words[start:start + 3], [str(len(points)), "1", "3"])
+                m = np.array(words[start + 3:-1], float).reshape(len(points), size)
+                c, s = np.cos(points[:, 1]), np.sin(points[:, 1])
+                a, b = 1 / (0.1 + points[:, 0]) ** 2, 1 / 0.09
+                np.testing.assert_allclose(m[:, 0], a * c * c + b * s * s)  # m11
+                np.testing.assert_allclose(m[:, 2], a * s * s + b * c * c)  # m22
+                if size == 6:
+                    np.testing.assert_allclose(m[:, 3:], [[0, 0, 1]] * len(points))  # m13 m23 m33
+
     def test_the_names_of_groups_in_gmsh_and_vtu_files(self):
         source = ROOT / "tests" / "data" / "lshape_v4.msh"
         for name, options in VARIANTS:

@@ -43,6 +43,9 @@ struct FileMesh {
   Elements<2> lines;
   Elements<4> quads;
   Elements<8> hexes;
+  /// Kept for backgrounds of metrics (io/background_file.h) and counted in `foreign` too.
+  std::vector<std::array<Index, 3>> triangles;
+  std::vector<std::array<Index, 4>> tetrahedra;
   std::vector<Index> corners;  ///< vertices pinned by the file
   std::vector<Index> ridges;   ///< indices into `lines`
   struct Name {
@@ -53,6 +56,9 @@ struct FileMesh {
   std::vector<Name> names;
   std::vector<Foreign> foreign;
 };
+
+/// All that a file says, before any check; the ending of `name` chooses the format.
+Expected<FileMesh> read_file_mesh(std::string_view name, std::span<const char> bytes);
 
 void add_foreign(FileMesh& mesh, std::string_view what, std::int64_t line);
 

@@ -45,7 +45,7 @@ std::string unknown_ending(std::string_view name) {
 
 }  // namespace
 
-Expected<AnyInput> read_input(std::string_view name, std::span<const char> bytes) {
+Expected<FileMesh> read_file_mesh(std::string_view name, std::span<const char> bytes) {
   const Format format = format_of(name);
   if (format == Format::unknown) return Status::bad_input(unknown_ending(name));
   if (bytes.empty()) return Status::bad_input(std::string(name) + ": the file is empty");
@@ -71,7 +71,13 @@ Expected<AnyInput> read_input(std::string_view name, std::span<const char> bytes
       break;
   }
   if (source.failed()) return source.status();
-  return finish(std::move(mesh), name);
+  return mesh;
+}
+
+Expected<AnyInput> read_input(std::string_view name, std::span<const char> bytes) {
+  auto mesh = read_file_mesh(name, bytes);
+  if (!mesh) return mesh.status();
+  return finish(std::move(*mesh), name);
 }
 
 Expected<AnyMesh> read_mesh(std::string_view name, std::span<const char> bytes) {

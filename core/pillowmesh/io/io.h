@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "pillowmesh/mesh/any_mesh.h"
 #include "pillowmesh/mesh/primitives.h"
@@ -25,6 +26,9 @@ Expected<AnyMesh> read_mesh(std::string_view name, std::span<const char> bytes);
 using AnyInput = std::variant<MeshInput<2>, MeshInput<3>>;
 /// The first half of read_mesh: all that the file says. make_mesh is the second.
 Expected<AnyInput> read_input(std::string_view name, std::span<const char> bytes);
+
+/// The bytes of a file. \return bad_input with the system's reason when it cannot be read.
+Expected<std::vector<char>> read_file(const std::string& path);
 
 /// Reads a mesh from a file.
 Expected<AnyMesh> read_mesh_file(const std::string& path);

@@ -40,8 +40,7 @@ Status write_safely(const std::string& path, Fill&& fill) {
 
 }  // namespace
 
-Expected<AnyMesh> read_mesh_file(const std::string& path) {
-  if (Status s = check_writable(path); !s.ok()) return Status::bad_input(s.message);  // unknown ending
+Expected<std::vector<char>> read_file(const std::string& path) {
   std::FILE* file = std::fopen(path.c_str(), "rb");
   if (file == nullptr) return Status::bad_input(path + ": cannot be read: " + system_reason());
   long size = 0;
@@ -60,7 +59,14 @@ Expected<AnyMesh> read_mesh_file(const std::string& path) {
   const std::string reason = failed ? system_reason() : "";
   std::fclose(file);
   if (failed) return Status::bad_input(path + ": cannot be read: " + reason);
-  return read_mesh(path, bytes);
+  return bytes;
+}
+
+Expected<AnyMesh> read_mesh_file(const std::string& path) {
+  if (Status s = check_writable(path); !s.ok()) return Status::bad_input(s.message);  // unknown ending
+  auto bytes = read_file(path);
+  if (!bytes) return bytes.status();
+  return read_mesh(path, *bytes);
 }
 
 template <int Dim>

@@ -54,7 +54,10 @@ class SectionReader {
       const std::int64_t n = count(s, s.vertices + 1);
       for (std::int64_t i = 0; i < n && !in_.failed(); ++i) {
         add_foreign(mesh_, s.plural, in_.binary() ? 0 : in_.line() + (i == 0 ? 1 : 0));
-        for (int k = 0; k <= s.vertices; ++k) in_.template integer<Id>("a vertex number or reference");
+        std::array<Index, 28> v;
+        for (int k = 0; k <= s.vertices; ++k) v[k] = id(in_.template integer<Id>("a vertex number or reference")) - 1;
+        if (s.vertices == 3 && s.code == 6) mesh_.triangles.push_back({v[0], v[1], v[2]});
+        if (s.vertices == 4) mesh_.tetrahedra.push_back({v[0], v[1], v[2], v[3]});
       }
     } else if (s.vertices == 2) {
       read_elements(mesh_.lines, s);

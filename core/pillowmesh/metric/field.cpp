@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "pillowmesh/metric/expression.h"
 #include "pillowmesh/mesh/number.h"
+#include "pillowmesh/metric/discrete.h"
+#include "pillowmesh/metric/expression.h"
+#include "pillowmesh/metric/spectrum.h"
 
 namespace pillowmesh {
 namespace {
@@ -127,16 +129,6 @@ class TensorBuilder {
   Graph& graph_;
 };
 
-// Positive leading minors: Sylvester's criterion.
-template <int Dim>
-bool positive_definite(const SymTensor<Dim>& M) {
-  for (const double v : M.m) {
-    if (!std::isfinite(v)) return false;
-  }
-  if (!(M.m[0] > 0.0) || !(M.m[0] * M.m[2] - M.m[1] * M.m[1] > 0.0)) return false;
-  return Dim == 2 || determinant(M) > 0.0;
-}
-
 std::string list_numbers(std::span<const double> values) {
   std::string text;
   for (const double v : values) {
@@ -173,6 +165,13 @@ MetricField<Dim> MetricField<Dim>::uniform(const SymTensor<Dim>& tensor) {
 }
 
 template <int Dim>
+MetricField<Dim> MetricField<Dim>::discrete(std::shared_ptr<const DiscreteMetric<Dim>> metric) {
+  MetricField field;
+  field.discrete_ = std::move(metric);
+  return field;
+}
+
+template <int Dim>
 MetricField<Dim> MetricField<Dim>::scaled(double factor) const {
   MetricField field = *this;
   field.scale_ = scale_ / (factor * factor);
@@ -181,7 +180,10 @@ MetricField<Dim> MetricField<Dim>::scaled(double factor) const {
 
 template <int Dim>
 void MetricField<Dim>::evaluate(const PointLanes<Dim>& points, int count, TensorLanes<Dim>& out) const {
-  program_->run(points.data(), count, out);
+  if (discrete_)
+    discrete_->evaluate(points, count, out);
+  else
+    program_->run(points.data(), count, out);
   const double scale = scale_;
   if (scale == 1.0) return;
   for (Lanes& entry : out) {

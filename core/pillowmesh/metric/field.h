@@ -18,6 +18,9 @@ using PointLanes = std::array<Lanes, Dim>;
 template <int Dim>
 using TensorLanes = std::array<Lanes, SymTensor<Dim>::size>;
 
+template <int Dim>
+class DiscreteMetric;  // metric/discrete.h
+
 /// The metric field. A value: cheap to copy, immutable, safe to read from several threads.
 template <int Dim>
 class MetricField {
@@ -34,6 +37,8 @@ class MetricField {
   static Expected<MetricField> from_formula(std::string_view text);
   /// The same tensor everywhere.
   static MetricField uniform(const SymTensor<Dim>& tensor);
+  /// From tensors at the vertices of a background mesh, see discrete.h and nodal.h.
+  static MetricField discrete(std::shared_ptr<const DiscreteMetric<Dim>> metric);
 
   /// The same field with all prescribed sizes multiplied by `factor` (> 0): M / factor^2.
   [[nodiscard]] MetricField scaled(double factor) const;
@@ -48,8 +53,13 @@ class MetricField {
   /// \return bad_input naming the first point where it is not.
   [[nodiscard]] Status check(std::span<const Point<Dim>> points) const;
 
+  /// Relative error below which integrals of the field mean nothing: 0 for formulas. A field from a background has a
+  /// kink wherever two of its simplices meet; to close in on each would be dear and for nothing.
+  [[nodiscard]] double accuracy() const { return discrete_ ? 1e-5 : 0.0; }
+
  private:
-  std::shared_ptr<const Program> program_;
+  std::shared_ptr<const Program> program_;  ///< one of these two
+  std::shared_ptr<const DiscreteMetric<Dim>> discrete_;
   double scale_ = 1.0;  // of the tensor
 };
 

@@ -149,7 +149,9 @@ class Integrator {
  public:
   static constexpr int kChunk = 72;  // edges
 
-  Integrator(const MetricField<Dim>& field, const LengthOptions& options) : sampler_(field), options_(options) {}
+  Integrator(const MetricField<Dim>& field, const LengthOptions& options) : sampler_(field), options_(options) {
+    options_.tolerance = std::max(options.tolerance, field.accuracy());
+  }
 
   void clear() {
     edges_ = 0;
@@ -285,7 +287,7 @@ double edge_length(const MetricField<Dim>& field, const Point<Dim>& a, const Poi
     sampler.add(edge, whole);
     const double* f = sampler.evaluate(nodes, 13);
     const double value7 = whole.half * rule7(f);
-    const double allowed = options.tolerance * value7;
+    const double allowed = std::max(options.tolerance, field.accuracy()) * value7;
     if (!(std::fabs(value7 - whole.half * rule4(f)) > allowed)) return value7;
     const double value13 = whole.half * rule13(f, f + 7);
     if (!(std::fabs(value13 - value7) > allowed)) return value13;
