@@ -13,6 +13,8 @@ export interface RunHost {
   showInitial(): void;
   setStatus(sentence: string): void;
   refresh(): void;
+  /** A run has come to its end. */
+  done(result: RunResult): void;
   tell(error: unknown): void;
 }
 
@@ -96,6 +98,7 @@ export class RunControl {
     this.irregular = report.irregular_vertices ?? null;
     this.host.setStatus(outcomeOf(result, report.mesh?.cells, this.player.mesh.dim));
     this.showAwaited(true);
+    this.host.done(result);
   }
 
   private showAwaited(complete: boolean): void {
