@@ -12,7 +12,7 @@ import { makeSetup } from '../panels/setup.ts';
 import { makeTransport } from '../panels/transport.ts';
 import { Stage } from '../stage/stage.ts';
 import { legendOf, summaryOf } from '../stage/words.ts';
-import { decodeSettings, encodeSettings } from '../state/permalink.ts';
+import { decodeSettings, encodeSettings, sameComputation } from '../state/permalink.ts';
 import { type Mark, type MeshChoice, type Pace, type Settings } from '../state/settings.ts';
 import { debounce, h } from '../ui/dom.ts';
 import { icon } from '../ui/icons.ts';
@@ -325,10 +325,4 @@ export class App {
     const lost = error instanceof LoadError || error instanceof CrashError;
     this.messages.show({ kind: 'error', text, ...(lost ? { action: this.restartAction() } : {}) });
   }
-}
-
-/** Whether two states show the same run, if perhaps not the same moment of it. */
-function sameComputation(a: Settings, b: Settings): boolean {
-  const question = ({ mesh, formula, options }: Settings): string => JSON.stringify([mesh, formula, options]);
-  return question(a) === question(b);
 }

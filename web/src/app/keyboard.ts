@@ -15,8 +15,9 @@ function usesKey(target: EventTarget | null, key: string): boolean {
 }
 
 /** Names: KeyboardEvent.key, letters in lower case, "Shift+" before arrows, "Ctrl+" before letters (the command key counts as such). */
-export function listenToKeys(actions: KeyActions): void {
-  document.addEventListener('keydown', (event) => {
+export function listenToKeys(actions: KeyActions, where: Document | ShadowRoot = document): void {
+  where.addEventListener('keydown', (event) => {
+    if (!(event instanceof KeyboardEvent)) return;
     if (event.altKey || usesKey(event.target, event.key)) return;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const control = event.ctrlKey || event.metaKey;

@@ -149,8 +149,11 @@ export function makeTransport(actions: TransportActions): Transport {
       play.replaceChildren(icon(playing ? 'pause' : 'play'));
       play.setAttribute('aria-label', playing ? 'Pause' : 'Play');
       play.title = playing ? 'Pause (space)' : 'Play (space)';
-      stepBack.disabled = first.disabled = index === 0;
-      stepForward.disabled = last.disabled = index === events.length && (events.length > 0 || running);
+      // Not `disabled`: a button that is loses the focus, and the keys with it.
+      const atStart = String(index === 0);
+      const atEnd = String(index === events.length && (events.length > 0 || running));
+      for (const button of [first, stepBack]) button.setAttribute('aria-disabled', atStart);
+      for (const button of [stepForward, last]) button.setAttribute('aria-disabled', atEnd);
       slider.max = String(events.length);
       slider.value = String(index);
       slider.disabled = events.length === 0;

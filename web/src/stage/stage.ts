@@ -25,8 +25,6 @@ export interface StageHost {
   tell(error: unknown): void;
 }
 
-const reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
-
 export class Stage {
   readonly workshop = new Workshop();
   readonly subject = new Subject(this.workshop);
@@ -40,7 +38,8 @@ export class Stage {
     this.picture.refreshEllipses(this.subject.initial, (points) => this.workshop.call('tensors', { points })),
   );
   private pictureLoaded: Promise<void> = Promise.resolve();
-  private readonly followMotion = (): void => void (this.player.still = reducedMotion.matches);
+  private readonly reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
+  private readonly followMotion = (): void => void (this.player.still = this.reducedMotion.matches);
 
   constructor(
     readonly settings: () => Settings,
@@ -69,7 +68,7 @@ export class Stage {
     };
     this.workshop.onCrash = (error) => host.tell(error);
     this.followMotion();
-    reducedMotion.addEventListener('change', this.followMotion);
+    this.reducedMotion.addEventListener('change', this.followMotion);
   }
 
   /** Loads the drawing code and draws; again after `rest`. */
@@ -86,7 +85,7 @@ export class Stage {
 
   /** Frees everything. With the next `apply` it can be used again. */
   close(): void {
-    reducedMotion.removeEventListener('change', this.followMotion);
+    this.reducedMotion.removeEventListener('change', this.followMotion);
     this.rest();
     this.workshop.restart();
   }

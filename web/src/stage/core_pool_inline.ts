@@ -1,0 +1,24 @@
+// In place of core_pool.ts in the single script (vite.standalone.ts): worker and modules are part of it.
+import { Pool } from '../../../wasm/pool.ts';
+import plane from '../../../build/wasm/pillowmesh.wasm?packed';
+import solid from '../../../build/wasm/pillowmesh3d.wasm?packed';
+import files from '../../../build/wasm/pillowmesh_files.wasm?packed';
+import InlineWorker from '../../../wasm/worker.ts?worker&inline';
+
+let pool: Pool | null = null;
+
+/** The bytes that vite.standalone.ts has compressed and written as base64. */
+async function unpack(packed: string): Promise<ArrayBuffer> {
+  const bytes = Uint8Array.from(atob(packed), (character) => character.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
+  return new Response(stream).arrayBuffer();
+}
+
+async function unpackAll(): Promise<{ 2: ArrayBuffer; 3: ArrayBuffer; files: ArrayBuffer }> {
+  const [two, three, formats] = await Promise.all([plane, solid, files].map(unpack));
+  return { 2: two, 3: three, files: formats };
+}
+
+export function corePool(): Pool {
+  return (pool ??= new Pool(() => new InlineWorker(), unpackAll(), 1));
+}
