@@ -1,6 +1,8 @@
-// In place of core_pool.ts in the single script (vite.standalone.ts): worker and modules are part of it.
+// In place of core_pool.ts in the single script (vite.standalone.ts): worker and modules are part of it. The module with
+// full adaptation stands for that without, so that quadrilaterals are not there twice.
+import type { ModuleSources } from '../../../wasm/loader.ts';
 import { Pool } from '../../../wasm/pool.ts';
-import plane from '../../../build/wasm/pillowmesh.wasm?packed';
+import full from '../../../build/wasm/pillowmesh_full.wasm?packed';
 import solid from '../../../build/wasm/pillowmesh3d.wasm?packed';
 import files from '../../../build/wasm/pillowmesh_files.wasm?packed';
 import InlineWorker from '../../../wasm/worker.ts?worker&inline';
@@ -14,9 +16,9 @@ async function unpack(packed: string): Promise<ArrayBuffer> {
   return new Response(stream).arrayBuffer();
 }
 
-async function unpackAll(): Promise<{ 2: ArrayBuffer; 3: ArrayBuffer; files: ArrayBuffer }> {
-  const [two, three, formats] = await Promise.all([plane, solid, files].map(unpack));
-  return { 2: two, 3: three, files: formats };
+async function unpackAll(): Promise<ModuleSources<ArrayBuffer>> {
+  const [two, three, formats] = await Promise.all([full, solid, files].map(unpack));
+  return { 2: two, full: two, 3: three, files: formats };
 }
 
 export function corePool(): Pool {

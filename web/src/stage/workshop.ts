@@ -4,14 +4,7 @@ import type { MeshEvent } from '../../../wasm/events.ts';
 import type { CrashError } from '../../../wasm/loader.ts';
 import type { CallName, Calls, RunResult } from '../../../wasm/protocol.ts';
 import type { MeshArrays, MeshSource, MetricSpec } from '../../../wasm/session.ts';
-<<<<<<< HEAD:web/src/app/workshop.ts
-import planeUrl from '../../../build/wasm/pillowmesh.wasm?url';
-import fullUrl from '../../../build/wasm/pillowmesh_full.wasm?url';
-import solidUrl from '../../../build/wasm/pillowmesh3d.wasm?url';
-import filesUrl from '../../../build/wasm/pillowmesh_files.wasm?url';
-=======
 import { corePool } from './core_pool.ts';
->>>>>>> a63f3e7 (Share workers among sessions, and compute in the page where none can be started):web/src/stage/workshop.ts
 
 export class Workshop {
   /** Called with the events of the present run. */
@@ -83,14 +76,7 @@ export class Workshop {
   }
 
   private connect(): Client {
-<<<<<<< HEAD:web/src/app/workshop.ts
-    const worker = new Worker(new URL('../../../wasm/worker.ts', import.meta.url), { type: 'module' });
-    const at = (url: string): string => new URL(url, location.href).href;
-    const modules = { 2: at(planeUrl), full: at(fullUrl), 3: at(solidUrl), files: at(filesUrl) };
-    const client = new Client(worker, modules, () => this.dimension);
-=======
     const client = new Client(corePool().connect(), () => this.dimension);
->>>>>>> a63f3e7 (Share workers among sessions, and compute in the page where none can be started):web/src/stage/workshop.ts
     client.onEvents = (events, run) => {
       if (run === this.run) this.onEvents(events);
     };
