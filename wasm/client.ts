@@ -1,7 +1,8 @@
-// The page's end of the worker: calls as promises, events as a callback.
+// The page's end of a session: calls as promises, events as a callback.
 import { decodeEvents, type MeshEvent } from './events.ts';
 import { CrashError, LoadError } from './loader.ts';
-import type { CallName, Calls, Failure, Reply, Request, Setup } from './protocol.ts';
+import type { Connection } from './pool.ts';
+import type { CallName, Calls, Failure, Reply, Request } from './protocol.ts';
 import { CoreError } from './session.ts';
 
 function toError(failure: Failure): Error {
@@ -20,27 +21,30 @@ interface Waiting {
   reject(error: Error): void;
 }
 
-/** Talks to one worker. After a crash every call is rejected; make a new client. */
+/** Talks to one session. After a crash every call is rejected; make a new client. */
 export class Client {
   /** Called with the events of a run and the number of its request. */
   onEvents: (events: MeshEvent[], run: number) => void = () => undefined;
-  /** Called once when the worker is lost. */
+  /** Called once when the session is lost. */
   onCrash: (error: CrashError) => void = () => undefined;
 
-  private readonly worker: Worker;
+  private readonly connection: Promise<Connection>;
   private readonly waiting = new Map<number, Waiting>();
   private readonly dimension: () => number;
   private next = 1;
   private lost: CrashError | null = null;
 
   /** `dimension` tells the dimension of the mesh that events belong to. */
-  constructor(worker: Worker, modules: Setup['modules'], dimension: () => number) {
-    this.worker = worker;
+  constructor(connection: Promise<Connection>, dimension: () => number) {
+    this.connection = connection;
     this.dimension = dimension;
-    worker.onmessage = ({ data }: MessageEvent<Reply>) => this.receive(data);
-    worker.onerror = (event) => this.lose(new CrashError(event.message || 'the worker could not be started'));
-    const setup: Setup = { type: 'setup', modules };
-    worker.postMessage(setup);
+    connection.then(
+      (open) => {
+        open.onmessage = ({ data }) => this.receive(data);
+        open.onlost = (error) => this.lose(error);
+      },
+      (error: unknown) => this.lose(new CrashError(error)),
+    );
   }
 
   /** Number that the next call will have: a run's events carry it. */
@@ -58,13 +62,13 @@ export class Client {
     const request = { id, name, args } as Request;
     return new Promise<Calls[N]['result']>((resolve, reject) => {
       this.waiting.set(id, { resolve: resolve as (result: unknown) => void, reject });
-      this.worker.postMessage(request, transfer);
+      this.connection.then((open) => open.postMessage(request, transfer)).catch(reject);
     });
   }
 
   dispose(): void {
-    this.worker.terminate();
-    this.lost ??= new CrashError('the worker was closed');
+    this.hangUp();
+    this.lost ??= new CrashError('the session was closed');
     this.rejectAll(this.lost);
   }
 
@@ -87,9 +91,13 @@ export class Client {
   private lose(error: CrashError): void {
     if (this.lost) return;
     this.lost = error;
-    this.worker.terminate();
+    this.hangUp();
     this.rejectAll(error);
     this.onCrash(error);
+  }
+
+  private hangUp(): void {
+    this.connection.then((open) => open.close()).catch(() => undefined);
   }
 
   private rejectAll(error: Error): void {

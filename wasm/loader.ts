@@ -118,7 +118,15 @@ function once<K, T>(loading: Map<K, Promise<T>>, key: K, load: () => Promise<T>)
   return promise;
 }
 
-async function compile(source: CoreSource): Promise<WebAssembly.Module> {
+/** Modules compiled by their addresses: all sessions of a page or worker share them, each with an instance of its own. */
+const compiled = new Map<string, Promise<WebAssembly.Module>>();
+
+function compile(source: CoreSource): Promise<WebAssembly.Module> {
+  const address = typeof source === 'string' || source instanceof URL ? String(source) : null;
+  return address === null ? compileNow(source) : once(compiled, address, () => compileNow(source));
+}
+
+async function compileNow(source: CoreSource): Promise<WebAssembly.Module> {
   if (typeof WebAssembly !== 'object')
     throw new LoadError('unsupported', 'This browser cannot run WebAssembly, which pillowmesh computes with.');
   if (source instanceof WebAssembly.Module) return source;

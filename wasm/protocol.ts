@@ -60,8 +60,19 @@ export type Reply =
   /** More events of the run that was started by request `id`. */
   | { type: 'events'; id: number; ints: Int32Array; doubles: Float64Array };
 
-/** The first message to a worker: where the modules are. */
+/** What a worker says once it listens: until then it may turn out that it cannot be started. */
+export interface Hello {
+  type: 'hello';
+}
+
+/** A message to a worker: a new session, which talks over a port of its own, and where the modules are. */
 export interface Setup {
-  type: 'setup';
+  type: 'connect';
+  port: MessagePort;
   modules: ModuleSources<string | ArrayBuffer>;
+}
+
+/** The last message over a port: the session is not wanted any more. */
+export interface Goodbye {
+  type: 'goodbye';
 }

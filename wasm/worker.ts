@@ -1,9 +1,10 @@
-// A module worker around one session: runs adaptations in slices so that it can be paused and cancelled, streams their
-// events, and answers measurements between the slices.
+// A module worker around sessions, each with a port: runs adaptations in slices so that they can be paused and
+// cancelled, streams their events, and answers measurements between the slices. Where a page may not start workers, the
+// same slices run in the page itself (pool.ts).
 import { decodeEvents } from './events.ts';
 import { writeFile } from './files.ts';
 import { CrashError, LoadError, modulesFrom, type Modules } from './loader.ts';
-import type { CallName, Calls, Failure, Reply, Request, RunResult, Setup } from './protocol.ts';
+import type { CallName, Calls, Failure, Goodbye, Hello, Reply, Request, RunResult, Setup } from './protocol.ts';
 import {
   CoreError,
   beginRun,
@@ -84,6 +85,13 @@ export class Server {
     } catch (error) {
       this.port.postMessage({ type: 'failure', id: request.id, failure: toFailure(error) }, []);
     }
+  }
+
+  /** Ends the run and frees the session. */
+  close(): void {
+    this.cancel();
+    this.present?.session.destroy();
+    this.present = null;
   }
 
   /** Begins in the order of the requests; a run's answer comes when it is over. */
@@ -236,19 +244,24 @@ export class Server {
   }
 }
 
-/** Connects a server to the worker's own scope; the first message says where the modules are. */
-export function serve(scope: DedicatedWorkerGlobalScopeLike): void {
-  let server: Server | null = null;
-  scope.onmessage = ({ data }) => {
-    if ('type' in data) server = new Server(scope, modulesFrom(data.modules));
-    else void server?.handle(data);
+/** Answers a port's requests with a session of its own until it says goodbye. */
+function serve(port: MessagePort, modules: Modules): void {
+  const server = new Server(port, modules);
+  port.onmessage = ({ data }: MessageEvent<Request | Goodbye>) => {
+    if (!('type' in data)) return void server.handle(data);
+    server.close();
+    port.close();
   };
 }
 
 /** `self` of a dedicated worker, without the DOM library's conflicting declaration of `self`. */
-export interface DedicatedWorkerGlobalScopeLike extends Port {
-  onmessage: ((event: { data: Setup | Request }) => void) | null;
+interface WorkerScope {
+  onmessage: ((event: { data: Setup }) => void) | null;
+  postMessage(message: Hello): void;
 }
 
-if (typeof document === 'undefined' && typeof self !== 'undefined' && 'postMessage' in self)
-  serve(self as unknown as DedicatedWorkerGlobalScopeLike);
+if (typeof document === 'undefined' && typeof self !== 'undefined' && 'postMessage' in self) {
+  const scope = self as unknown as WorkerScope;
+  scope.onmessage = ({ data: { port, modules } }) => serve(port, modulesFrom(modules));
+  scope.postMessage({ type: 'hello' });
+}

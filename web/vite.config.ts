@@ -1,8 +1,17 @@
-import { dirname } from 'node:path';
+import { readdirSync } from 'node:fs';
+import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
 
 const web = dirname(fileURLToPath(import.meta.url));
+
+/** Every page of the site by its name. */
+const pages = Object.fromEntries(
+  ['.', 'lessons']
+    .flatMap((folder) => readdirSync(join(web, folder)).map((name) => join(folder, name)))
+    .filter((path) => path.endsWith('.html'))
+    .map((path) => [path.replace(/\.html$/, '').replace('/', '-'), join(web, path)]),
+);
 
 /** The page asks for no more than this; said in the built page, since the development server injects scripts. */
 const policy =
@@ -32,7 +41,14 @@ export default defineConfig({
     outDir: 'dist',
     emptyOutDir: true,
     target: 'es2022',
+    cssTarget: ['chrome123', 'firefox120', 'safari17.5'], // those that know light-dark()
     assetsInlineLimit: 0,
     chunkSizeWarningLimit: 900, // three.js, loaded when the first frame stands
+    rolldownOptions: {
+      input: { ...pages, 'pillow-mesh': join(web, 'src/element/index.ts') },
+      preserveEntrySignatures: 'allow-extension',
+      // Other sites write this name into their pages.
+      output: { entryFileNames: ({ name }) => (name === 'pillow-mesh' ? '[name].js' : 'assets/[name]-[hash].js') },
+    },
   },
 });

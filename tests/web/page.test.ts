@@ -341,7 +341,7 @@ describe('what a visitor downloads', () => {
 
 describe('mishaps', () => {
   test('a missing core is told, with a way to try again', async () => {
-    const without = await serveSite((path) => path.endsWith('.wasm'));
+    const without = await serveSite({ hide: (path) => path.endsWith('.wasm') });
     const context = await browser.newContext();
     const lost = await context.newPage();
     await lost.goto(without.address);
@@ -367,7 +367,7 @@ describe('mishaps', () => {
 
   test('a worker that cannot work is told and can be replaced', async () => {
     let broken = true;
-    const flaky = await serveSite((path) => broken && /worker/.test(path));
+    const flaky = await serveSite({ hide: (path) => broken && /worker/.test(path) });
     const context = await browser.newContext();
     page = await context.newPage();
     await page.goto(flaky.address);

@@ -5,11 +5,12 @@ import type { AddressInfo } from 'node:net';
 import { extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium, type Browser } from 'playwright-core';
-import { build } from 'vite';
+// @ts-expect-error a plain script without types
+import { buildSite as build } from '../../scripts/site.mjs';
 
 export const root = fileURLToPath(new URL('../..', import.meta.url));
 export const screenshots = join(root, 'build', 'screenshots');
-const site = join(root, 'build', 'site');
+export const site = join(root, 'build', 'site');
 
 const types: Record<string, string> = {
   '.html': 'text/html; charset=utf-8',
@@ -19,13 +20,9 @@ const types: Record<string, string> = {
   '.wasm': 'application/wasm',
 };
 
-/** Builds the page into build/site. */
+/** Builds the site into build/site, once for all test files that run after each other. */
 export async function buildSite(): Promise<void> {
-  await build({
-    configFile: join(root, 'web', 'vite.config.ts'),
-    logLevel: 'error',
-    build: { outDir: site, emptyOutDir: true },
-  });
+  if (process.env.PILLOWMESH_SITE !== 'built') await build(site);
 }
 
 export interface Serving {
@@ -33,23 +30,41 @@ export interface Serving {
   close(): Promise<void>;
 }
 
-/** Serves the built page below a folder, as any static host does. Paths for which `hide` is true are answered with 404. */
-export function serveSite(hide?: (path: string) => boolean): Promise<Serving> {
+export interface ServeOptions {
+  /** Paths below the site that are answered with 404. */
+  hide?: (path: string) => boolean;
+  /** Sent with every answer. */
+  headers?: Record<string, string>;
+  /** More pages, by their path below the site. */
+  pages?: Record<string, string>;
+  /** Where the site is on its host. */
+  below?: string;
+}
+
+/** Serves the built site below a folder, as any static host does. */
+export function serveSite({ hide, headers = {}, pages = {}, below = '/mesh/' }: ServeOptions = {}): Promise<Serving> {
   const server: Server = createServer((request, response) => {
-    const path = decodeURIComponent(new URL(request.url ?? '/', 'http://localhost').pathname).replace(/^\/mesh\//, '/');
-    const file = normalize(join(site, path.endsWith('/') ? `${path}index.html` : path));
-    if (!file.startsWith(site) || hide?.(path) || !existsSync(file) || !statSync(file).isFile()) {
+    const asked = decodeURIComponent(new URL(request.url ?? '/', 'http://localhost').pathname);
+    const path = asked.startsWith(below) ? asked.slice(below.length) : '..';
+    const type = types[extname(path) || '.html'] ?? 'application/octet-stream';
+    const file = normalize(join(site, path === '' || path.endsWith('/') ? `${path}index.html` : path));
+    if (path in pages) {
+      response.writeHead(200, { 'content-type': type, ...headers }).end(pages[path]);
+    } else if (!file.startsWith(site) || hide?.(path) || !existsSync(file) || !statSync(file).isFile()) {
       response.writeHead(404).end('not found');
-      return;
+    } else {
+      response.writeHead(200, { 'content-type': type, ...headers }).end(readFileSync(file));
     }
-    response.writeHead(200, { 'content-type': types[extname(file)] ?? 'application/octet-stream' });
-    response.end(readFileSync(file));
   });
   return new Promise((resolve) =>
     server.listen(0, '127.0.0.1', () =>
       resolve({
-        address: `http://127.0.0.1:${(server.address() as AddressInfo).port}/mesh/`,
-        close: () => new Promise((done) => server.close(() => done())),
+        address: `http://127.0.0.1:${(server.address() as AddressInfo).port}${below}`,
+        close: () =>
+          new Promise((done) => {
+            server.close(() => done());
+            server.closeAllConnections();
+          }),
       }),
     ),
   );

@@ -1,5 +1,5 @@
 // Keys of the page. They stay out of the way of text fields and of controls that use the same keys.
-export type KeyActions = Record<string, () => void>;
+export type KeyActions = Record<string, () => unknown>;
 
 function usesKey(target: EventTarget | null, key: string): boolean {
   if (!(target instanceof HTMLElement)) return false;
@@ -14,12 +14,15 @@ function usesKey(target: EventTarget | null, key: string): boolean {
   return key === ' ' && target.closest('button, summary, a') !== null;
 }
 
-/** Names: KeyboardEvent.key, letters in lower case, "Shift+" before arrows. */
-export function listenToKeys(actions: KeyActions): void {
-  document.addEventListener('keydown', (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || usesKey(event.target, event.key)) return;
+/** Names: KeyboardEvent.key, letters in lower case, "Shift+" before arrows, "Ctrl+" before letters (the command key counts as such). */
+export function listenToKeys(actions: KeyActions, where: Document | ShadowRoot = document): void {
+  where.addEventListener('keydown', (event) => {
+    if (!(event instanceof KeyboardEvent)) return;
+    if (event.altKey || usesKey(event.target, event.key)) return;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
-    const action = actions[event.shiftKey && event.key.startsWith('Arrow') ? `Shift+${key}` : key];
+    const control = event.ctrlKey || event.metaKey;
+    const shift = event.shiftKey && (control || event.key.startsWith('Arrow'));
+    const action = actions[`${control ? 'Ctrl+' : ''}${shift ? 'Shift+' : ''}${key}`];
     if (!action) return;
     event.preventDefault();
     action();

@@ -1,10 +1,11 @@
 // What each key of the page does; panels/help.ts tells it.
 import type { LookInside } from '../panels/look_inside.ts';
 import type { Player } from '../replay/player.ts';
+import type { Picture } from '../stage/picture.ts';
+import type { RunControl } from '../stage/run_control.ts';
 import { colourings, paces, type Mark, type Pace, type Settings } from '../state/settings.ts';
+import type { History } from './history.ts';
 import type { KeyActions } from './keyboard.ts';
-import type { Picture } from './picture.ts';
-import type { RunControl } from './run_control.ts';
 
 export interface KeyHost {
   settings(): Settings;
@@ -13,6 +14,7 @@ export interface KeyHost {
   setPace(pace: Pace): void;
   openFile(): void;
   help(): void;
+  history: History;
   run: RunControl;
   player: Player;
   picture: Picture;
@@ -61,6 +63,9 @@ export function keyActions(host: KeyHost): KeyActions {
       inside.setOpen(true);
       host.change({ inside: { ...now, irregular: !now.irregular } });
     }),
+    'Ctrl+z': () => host.history.undo(),
+    'Ctrl+y': () => host.history.redo(),
+    'Ctrl+Shift+z': () => host.history.redo(),
     o: () => host.openFile(),
     '?': () => host.help(),
   };

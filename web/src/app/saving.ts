@@ -1,10 +1,8 @@
 // The displayed mesh as a file, a picture or a report.
 import type { SaveFormat } from '../panels/header.ts';
-import type { Player } from '../replay/player.ts';
+import type { Stage } from '../stage/stage.ts';
 import type { MeshChoice } from '../state/settings.ts';
 import { h } from '../ui/dom.ts';
-import type { Picture } from './picture.ts';
-import type { Workshop } from './workshop.ts';
 
 function stemOf(mesh: MeshChoice): string {
   const name = mesh.kind === 'grid' ? 'grid' : mesh.kind === 'file' ? mesh.name.replace(/\.\w+$/, '') : mesh.name;
@@ -18,12 +16,10 @@ function download(blob: Blob, name: string): void {
 }
 
 /** Saves what is shown and gives the name of the file. */
-export async function saveShown(
-  format: SaveFormat,
-  { player, picture, workshop, mesh }: { player: Player; picture: Picture; workshop: Workshop; mesh: MeshChoice },
-): Promise<string> {
+export async function saveShown(format: SaveFormat, stage: Stage): Promise<string> {
+  const { player, picture, workshop } = stage;
   player.pause();
-  const name = `${stemOf(mesh)}-${player.index}.${format}`;
+  const name = `${stemOf(stage.settings().mesh)}-${player.index}.${format}`;
   if (format === 'png') {
     download(await picture.capture(), name);
     return name;

@@ -2,6 +2,7 @@
 import { colourings, marks, type Colouring, type Mark } from '../state/settings.ts';
 import { h, svg } from '../ui/dom.ts';
 import { icon } from '../ui/icons.ts';
+import { makeLegend, type LegendContent } from './legend.ts';
 
 export interface PictureToolActions {
   toggleMark(mark: Mark): void;
@@ -17,7 +18,7 @@ export interface PictureTools {
   legend: HTMLElement;
   update(state: { marks: Record<Mark, boolean>; colouring: Colouring; dim: number }): void;
   /** Colours of the legend and the words at its ends; null: none. */
-  setLegend(legend: { colours: Uint8Array; title: string; low: string; high: string } | null): void;
+  setLegend(legend: LegendContent | null): void;
 }
 
 const markLabels: Record<Mark, [label: string, explanation: string]> = {
@@ -64,9 +65,7 @@ export function makePictureTools(actions: PictureToolActions): PictureTools {
       h('input', { type: 'radio', name: 'colouring', value: c, onchange: () => actions.setColouring(c) }),
     ]),
   ) as Record<Colouring, HTMLInputElement>;
-  const bar = h('span', { class: 'bar' });
-  const [low, high, title] = [h('span'), h('span'), h('span', { class: 'title' })];
-  const legend = h('div', { class: 'legend', hidden: true }, title, h('span', { class: 'scale' }, low, bar, high));
+  const legend = makeLegend();
   const element = h(
     'div',
     { class: 'picture-tools' },
@@ -100,23 +99,12 @@ export function makePictureTools(actions: PictureToolActions): PictureTools {
   );
   return {
     element,
-    legend,
+    legend: legend.element,
     update(state) {
       for (const mark of marks) chips[mark].setAttribute('aria-pressed', String(state.marks[mark]));
       chips.ellipses.hidden = state.dim === 3;
       radios[state.colouring].checked = true;
     },
-    setLegend(next) {
-      legend.hidden = !next;
-      if (!next) return;
-      const stops = Array.from({ length: 17 }, (_, i) => {
-        const at = 4 * Math.min(255, i * 16);
-        return `rgb(${next.colours[at]} ${next.colours[at + 1]} ${next.colours[at + 2]})`;
-      });
-      bar.style.background = `linear-gradient(to right, ${stops.join(', ')})`;
-      title.textContent = next.title;
-      low.textContent = next.low;
-      high.textContent = next.high;
-    },
+    setLegend: legend.set,
   };
 }

@@ -3,6 +3,7 @@ import { eventKinds, type EventKind, type MeshEvent } from '../../../wasm/events
 import { paces, type Pace } from '../state/settings.ts';
 import { h } from '../ui/dom.ts';
 import { icon, type IconName } from '../ui/icons.ts';
+import { readColours } from '../viewport/palette.ts';
 
 export interface TransportActions {
   toggle(): void;
@@ -113,15 +114,15 @@ export function makeTransport(actions: TransportActions): Transport {
   function drawTrack(events: readonly MeshEvent[]): void {
     const width = Math.round(track.clientWidth * devicePixelRatio);
     const height = Math.round(track.clientHeight * devicePixelRatio);
-    const style = getComputedStyle(track);
-    const theme = style.getPropertyValue('--ink');
+    const theme = getComputedStyle(track).color;
     if (!width || (drawn.count === events.length && drawn.width === width && drawn.theme === theme)) return;
     drawn = { count: events.length, width, theme };
     track.width = width;
     track.height = height;
     const context = track.getContext('2d');
     if (!context || events.length === 0) return;
-    const colours = Object.fromEntries(eventKinds.map((k) => [k, style.getPropertyValue(`--event-${k}`)]));
+    const all = readColours(track.parentElement ?? track, eventKinds.map((kind) => `event-${kind}` as const));
+    const colours = Object.fromEntries(eventKinds.map((kind) => [kind, all[`event-${kind}`]]));
     // Where several events share a column of pixels, the last one is drawn; layers stand for what becomes of them.
     const crowded = width < 3 * events.length;
     const columns = new Map<number, EventKind>();
@@ -148,8 +149,11 @@ export function makeTransport(actions: TransportActions): Transport {
       play.replaceChildren(icon(playing ? 'pause' : 'play'));
       play.setAttribute('aria-label', playing ? 'Pause' : 'Play');
       play.title = playing ? 'Pause (space)' : 'Play (space)';
-      stepBack.disabled = first.disabled = index === 0;
-      stepForward.disabled = last.disabled = index === events.length && (events.length > 0 || running);
+      // Not `disabled`: a button that is loses the focus, and the keys with it.
+      const atStart = String(index === 0);
+      const atEnd = String(index === events.length && (events.length > 0 || running));
+      for (const button of [first, stepBack]) button.setAttribute('aria-disabled', atStart);
+      for (const button of [stepForward, last]) button.setAttribute('aria-disabled', atEnd);
       slider.max = String(events.length);
       slider.value = String(index);
       slider.disabled = events.length === 0;

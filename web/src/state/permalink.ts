@@ -12,6 +12,25 @@ import {
   type Settings,
 } from './settings.ts';
 
+/** The names that a link may hold. */
+export const stateNames = [
+  'case',
+  'mesh',
+  'file',
+  'metric',
+  ...(Object.keys(optionDefaults) as OptionName[]),
+  'colour',
+  'hide',
+  'cut',
+  'peel',
+  'quality',
+  'cells',
+  'edges',
+  'pace',
+  'event',
+  'view',
+] as const;
+export type StateName = (typeof stateNames)[number];
 
 function encodeCamera({ target, zoom, direction }: CameraPose): string {
   return [target, [zoom], direction ?? []].map((part) => part.map(number).join(',')).join(';');
@@ -66,4 +85,10 @@ export function decodeSettings(fragment: string): Settings {
   if (event >= 0) settings.event = event;
   settings.camera = decodeCamera(get('view') ?? '');
   return settings;
+}
+
+/** Whether two states show the same run, if perhaps not the same moment of it. */
+export function sameComputation(a: Settings, b: Settings): boolean {
+  const question = ({ mesh, formula, options }: Settings): string => JSON.stringify([mesh, formula, options]);
+  return question(a) === question(b);
 }

@@ -16,21 +16,48 @@ export interface Palette {
   irregular: readonly [string, string, string];
 }
 
+/** Custom properties of the style sheet as colours of the theme in force: the browser resolves `light-dark()`. */
+export function readColours<N extends string>(element: Element, names: readonly N[]): Record<N, string> {
+  const probe = document.createElement('span');
+  probe.hidden = true;
+  element.append(probe);
+  const style = getComputedStyle(probe);
+  const colours = names.map((name) => {
+    probe.style.color = `var(--${name})`;
+    return [name, style.color] as const;
+  });
+  probe.remove();
+  return Object.fromEntries(colours) as Record<N, string>;
+}
+
+/** Whether light is written on dark. */
+export function isDark(element: Element): boolean {
+  const { ink } = readColours(element, ['ink']);
+  const channels = ink.match(/[\d.]+/g)?.slice(0, 3).map(Number) ?? [0];
+  return channels[0] > 128;
+}
+
 export function readPalette(element: Element): Palette {
-  const style = getComputedStyle(element);
-  const get = (name: string): string => style.getPropertyValue(`--${name}`).trim();
+  const colours = readColours(element, [
+    'picture',
+    'cell',
+    'cut',
+    'mesh-line',
+    'outline',
+    'tag',
+    'layer',
+    'hull',
+    'buffer',
+    'ellipse',
+    'fewer',
+    'one-more',
+    'many-more',
+  ]);
   return {
-    background: get('picture'),
-    cell: get('cell'),
-    cut: get('cut'),
-    line: get('mesh-line'),
-    outline: get('outline'),
-    tag: get('tag'),
-    layer: get('layer'),
-    hull: get('hull'),
-    buffer: get('buffer'),
-    ellipse: get('ellipse'),
-    irregular: [get('fewer'), get('one-more'), get('many-more')],
+    ...colours,
+    background: colours.picture,
+    line: colours['mesh-line'],
+    irregular: [colours.fewer, colours['one-more'], colours['many-more']],
   };
 }
 

@@ -225,6 +225,7 @@ export class Viewport {
     this.controls.dispose();
     for (const layer of this.layers) layer.dispose();
     this.renderer.dispose();
+    this.renderer.forceContextLoss(); // browsers allow few contexts, and collect them late
     this.canvas.remove();
     this.triad.element.remove();
   }

@@ -8,10 +8,9 @@ import { sceneAfter } from '../replay/scene.ts';
 import type { CameraPose, Colouring, Mark } from '../state/settings.ts';
 import { h } from '../ui/dom.ts';
 import { sampleEllipses } from '../viewport/ellipse_samples.ts';
-import { colourMaps, readPalette } from '../viewport/palette.ts';
+import { colourMaps, isDark, readPalette } from '../viewport/palette.ts';
 import type { InsideReport } from '../viewport/hex_body.ts';
 import type { Viewport } from '../viewport/viewport.ts';
-import { currentTheme } from './theme.ts';
 
 export interface Look {
   colouring: Colouring;
@@ -35,6 +34,8 @@ export class Picture {
     inside: defaultInside(),
   };
   private shapes = new Float64Array(0);
+  private dark = false;
+  private lastPose: CameraPose | null = null;
   private readonly player: Player;
 
   constructor(player: Player) {
@@ -43,8 +44,10 @@ export class Picture {
 
   /** Loads the drawing code; afterwards the mesh is shown, if the browser can. */
   async load(): Promise<void> {
+    if (this.viewport) return;
     try {
       const { Viewport } = await import('../viewport/viewport.ts');
+      if (this.viewport) return;
       this.viewport = new Viewport(this.host);
     } catch (error) {
       const missing = !document.createElement('canvas').getContext('webgl2');
@@ -60,6 +63,14 @@ export class Picture {
       this.onProblem(lost ? 'The graphics driver has dropped the picture; it comes back when it can.' : null);
     this.retheme();
     this.showAll(true);
+    if (this.lastPose) this.pose = this.lastPose;
+  }
+
+  /** Gives the graphics context back; `load` draws again, from where the camera was. */
+  unload(): void {
+    this.lastPose = this.pose;
+    this.viewport?.dispose();
+    this.viewport = null;
   }
 
   get available(): boolean {
@@ -121,14 +132,17 @@ export class Picture {
     this.viewport?.setEllipses(new Float64Array(0), new Float64Array(0));
   }
 
+  /** Light or dark, and the host's colours, may have changed. */
   retheme(): void {
+    this.dark = isDark(this.host);
     this.viewport?.setPalette(readPalette(this.host));
     this.applyLook();
   }
 
   /** Colours of the legend, or null when cells are plain. */
   get colours(): Uint8Array<ArrayBuffer> | null {
-    return this.look.colouring === 'plain' ? null : colourMaps[this.look.colouring][currentTheme()];
+    const { colouring } = this.look;
+    return colouring === 'plain' ? null : colourMaps[colouring][this.dark ? 'dark' : 'light'];
   }
 
   get pose(): CameraPose | null {

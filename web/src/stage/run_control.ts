@@ -13,6 +13,8 @@ export interface RunHost {
   showInitial(): void;
   setStatus(sentence: string): void;
   refresh(): void;
+  /** A run has come to its end. */
+  done(result: RunResult): void;
   tell(error: unknown): void;
 }
 
@@ -43,8 +45,8 @@ export class RunControl {
     this.irregular = null;
   }
 
-  /** Computes the run; plays it while it comes, or shows one of its events. */
-  async start(how: 'play' | { show: number }): Promise<void> {
+  /** Computes the run; plays it while it comes, or shows one of its events. Null when it failed or another took its place. */
+  async start(how: 'play' | { show: number }): Promise<RunResult | null> {
     const { player, workshop, host } = this;
     await workshop.abandon();
     if (player.events.length > 0) host.showInitial();
@@ -56,13 +58,16 @@ export class RunControl {
     try {
       const result = await run;
       if (result) this.finish(result);
+      return result;
     } catch (error) {
       player.pause();
       player.finish();
       host.setStatus('');
       host.tell(error);
+      return null;
+    } finally {
+      host.refresh();
     }
-    host.refresh();
   }
 
   stop(): Promise<void> {
@@ -96,6 +101,7 @@ export class RunControl {
     this.irregular = report.irregular_vertices ?? null;
     this.host.setStatus(outcomeOf(result, report.mesh?.cells, this.player.mesh.dim));
     this.showAwaited(true);
+    this.host.done(result);
   }
 
   private showAwaited(complete: boolean): void {

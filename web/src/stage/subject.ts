@@ -9,12 +9,19 @@ export const nothing: MeshArrays = { dim: 2, points: new Float64Array(0), cells:
 export class Subject {
   cases: readonly Case[] = [];
   initial: MeshArrays = nothing;
-  /** Content of the mesh that came as a file last. */
-  file: Uint8Array | null = null;
+  /** Contents of the meshes that came as files, by name. */
+  readonly files = new Map<string, Uint8Array>();
   private readonly workshop: Workshop;
 
   constructor(workshop: Workshop) {
     this.workshop = workshop;
+  }
+
+  /** Asks the core for its cases, once. */
+  async begin(): Promise<{ version: string }> {
+    const { version, cases } = await this.workshop.call('about', {});
+    this.cases = cases;
+    return { version };
   }
 
   get empty(): boolean {
@@ -31,8 +38,11 @@ export class Subject {
    * Rejects when either is refused; then what was open stays.
    */
   async open(choice: MeshChoice, formula: string): Promise<string> {
+    if (this.cases.length === 0) await this.begin();
     const source: MeshSource =
-      choice.kind === 'file' ? { kind: 'file', name: choice.name, bytes: this.file ?? new Uint8Array(0) } : choice;
+      choice.kind === 'file'
+        ? { ...choice, bytes: this.files.get(choice.name) ?? new Uint8Array(0) }
+        : choice;
     let text = formula || this.ownFormula(choice) || '';
     const mesh = await this.workshop.open(source, text ? { formula: text } : undefined);
     if (!text) {
@@ -45,9 +55,11 @@ export class Subject {
 
   /** Opens a file that the visitor hands over. */
   async openFile(file: File, open: (choice: MeshChoice) => Promise<boolean>): Promise<void> {
-    const before = this.file;
-    this.file = new Uint8Array(await file.arrayBuffer());
-    if (!(await open({ kind: 'file', name: file.name }))) this.file = before;
+    const before = this.files.get(file.name);
+    this.files.set(file.name, new Uint8Array(await file.arrayBuffer()));
+    if (await open({ kind: 'file', name: file.name })) return;
+    if (before) this.files.set(file.name, before);
+    else this.files.delete(file.name);
   }
 
   /** The ideal number of cells, where the core can tell. */

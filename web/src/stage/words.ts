@@ -1,6 +1,7 @@
 // Sentences and legends made of the page's state.
 import type { RunResult } from '../../../wasm/protocol.ts';
 import type { MeshArrays } from '../../../wasm/session.ts';
+import type { LegendContent } from '../panels/legend.ts';
 import { cellWord } from '../replay/caption.ts';
 import type { Colouring, MeshChoice } from '../state/settings.ts';
 
@@ -19,14 +20,7 @@ export function outcomeOf({ outcome, seconds }: RunResult, cells: number | undef
   return outcome.status === 'ok' ? sentence : `${sentence} ${outcome.message}`;
 }
 
-export interface Legend {
-  colours: Uint8Array;
-  title: string;
-  low: string;
-  high: string;
-}
-
-export function legendOf(colouring: Colouring, colours: Uint8Array | null, iterations: number): Legend | null {
+export function legendOf(colouring: Colouring, colours: Uint8Array | null, iterations: number): LegendContent | null {
   if (!colours) return null;
   return colouring === 'shape'
     ? { colours, title: 'Shape η', low: '0 flat', high: '1 unit' }

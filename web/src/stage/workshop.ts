@@ -1,28 +1,26 @@
-// The computing side of the page: a worker with a session, made again when it is lost.
+// The computing side of a picture: a session in the pool, made again when it is lost.
 import { Client } from '../../../wasm/client.ts';
 import type { MeshEvent } from '../../../wasm/events.ts';
 import type { CrashError } from '../../../wasm/loader.ts';
 import type { CallName, Calls, RunResult } from '../../../wasm/protocol.ts';
 import type { MeshArrays, MeshSource, MetricSpec } from '../../../wasm/session.ts';
-import planeUrl from '../../../build/wasm/pillowmesh.wasm?url';
-import fullUrl from '../../../build/wasm/pillowmesh_full.wasm?url';
-import solidUrl from '../../../build/wasm/pillowmesh3d.wasm?url';
-import filesUrl from '../../../build/wasm/pillowmesh_files.wasm?url';
+import { corePool } from './core_pool.ts';
 
 export class Workshop {
   /** Called with the events of the present run. */
   onEvents: (events: MeshEvent[]) => void = () => undefined;
   onCrash: (error: CrashError) => void = () => undefined;
 
-  private client = this.connect();
+  /** Connected when it is first needed. */
+  private present: Client | null = null;
   private dimension = 2;
   private run: number | null = null;
 
-  /** A new worker; the mesh must be opened again. */
+  /** Frees the session. With the next call there is a new one, in which a mesh must be opened again. */
   restart(): void {
     this.run = null;
-    this.client.dispose();
-    this.client = this.connect();
+    this.present?.dispose();
+    this.present = null;
   }
 
   call<N extends CallName>(
@@ -73,11 +71,12 @@ export class Workshop {
     await this.call('cancel', {});
   }
 
+  private get client(): Client {
+    return (this.present ??= this.connect());
+  }
+
   private connect(): Client {
-    const worker = new Worker(new URL('../../../wasm/worker.ts', import.meta.url), { type: 'module' });
-    const at = (url: string): string => new URL(url, location.href).href;
-    const modules = { 2: at(planeUrl), full: at(fullUrl), 3: at(solidUrl), files: at(filesUrl) };
-    const client = new Client(worker, modules, () => this.dimension);
+    const client = new Client(corePool().connect(), () => this.dimension);
     client.onEvents = (events, run) => {
       if (run === this.run) this.onEvents(events);
     };

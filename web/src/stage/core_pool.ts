@@ -1,0 +1,31 @@
+// The one pool of workers that all pictures of a page compute in, and where its files are.
+import { Pool } from '../../../wasm/pool.ts';
+import planeUrl from '../../../build/wasm/pillowmesh.wasm?url';
+import fullUrl from '../../../build/wasm/pillowmesh_full.wasm?url';
+import solidUrl from '../../../build/wasm/pillowmesh3d.wasm?url';
+import filesUrl from '../../../build/wasm/pillowmesh_files.wasm?url';
+import workerUrl from '../../../wasm/worker.ts?worker&url';
+
+let pool: Pool | null = null;
+
+/** More workers than this would only share the same processors. */
+const most = Math.max(1, Math.min(3, (navigator.hardwareConcurrency ?? 2) - 1));
+
+const absolute = (url: string): string => new URL(url, import.meta.url).href;
+
+/** For a script that comes from another host: a worker of the page's own that imports the other's code. */
+function importingWorker(address: string): Worker {
+  const code = new Blob([`import ${JSON.stringify(address)};`], { type: 'text/javascript' });
+  return new Worker(URL.createObjectURL(code), { type: 'module' });
+}
+
+export function corePool(): Pool {
+  const address = absolute(workerUrl);
+  const modules = { 2: absolute(planeUrl), full: absolute(fullUrl), 3: absolute(solidUrl), files: absolute(filesUrl) };
+  const foreign = new URL(address).origin !== location.origin;
+  return (pool ??= new Pool(
+    () => (foreign ? importingWorker(address) : new Worker(address, { type: 'module' })),
+    Promise.resolve(modules),
+    most,
+  ));
+}

@@ -1,0 +1,177 @@
+// A picture that computes: mesh, metric, run, playback and drawing together, without any panel around it. The page and
+// the element <pillow-mesh> are both made of it.
+import type { Measures, RunResult } from '../../../wasm/protocol.ts';
+import { captionOf } from '../replay/caption.ts';
+import { Player, type Shown } from '../replay/player.ts';
+import type { MeshChoice, Settings } from '../state/settings.ts';
+import { Picture } from './picture.ts';
+import { Refresher } from './refresher.ts';
+import { RunControl } from './run_control.ts';
+import { Subject, nothing } from './subject.ts';
+import { makeTicker } from './ticker.ts';
+import { Workshop } from './workshop.ts';
+
+/** What a stage tells the page around it. */
+export interface StageHost {
+  /** Anything that is shown may have changed. */
+  refresh(): void;
+  /** Another mesh or metric is open; `formula` is in force. */
+  opened(formula: string): void;
+  measured(measures: Measures): void;
+  /** "Computing", how a run ended, or nothing. */
+  setStatus(sentence: string): void;
+  done(result: RunResult): void;
+  stepped(shown: Shown): void;
+  tell(error: unknown): void;
+}
+
+export class Stage {
+  readonly workshop = new Workshop();
+  readonly subject = new Subject(this.workshop);
+  readonly player = new Player(nothing);
+  readonly picture = new Picture(this.player);
+  readonly run: RunControl;
+  /** Of the mesh as it was measured last. */
+  measures: Measures | null = null;
+  private readonly measuring = new Refresher(() => this.measure());
+  private readonly sampling = new Refresher(() =>
+    this.picture.refreshEllipses(this.subject.initial, (points) => this.workshop.call('tensors', { points })),
+  );
+  private pictureLoaded: Promise<void> = Promise.resolve();
+  private readonly reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
+  private readonly followMotion = (): void => void (this.player.still = this.reducedMotion.matches);
+
+  constructor(
+    readonly settings: () => Settings,
+    private readonly host: StageHost,
+  ) {
+    const { player } = this;
+    this.run = new RunControl(player, this.workshop, {
+      options: () => this.settings().options,
+      ready: () => !this.subject.empty,
+      showInitial: () => this.showInitial(false),
+      setStatus: (sentence) => host.setStatus(sentence),
+      refresh: () => host.refresh(),
+      done: (result) => host.done(result),
+      tell: (error) => host.tell(error),
+    });
+    const tick = makeTicker(player);
+    player.onShow = (shown) => {
+      this.picture.show(shown);
+      this.measuring.request(player.playing ? 200 : 20);
+      host.stepped(shown);
+      host.refresh();
+    };
+    player.onState = () => {
+      tick();
+      host.refresh();
+    };
+    this.workshop.onCrash = (error) => host.tell(error);
+    this.followMotion();
+    this.reducedMotion.addEventListener('change', this.followMotion);
+  }
+
+  /** Loads the drawing code and draws; again after `rest`. */
+  show(): Promise<void> {
+    this.pictureLoaded = this.picture.load().then(() => this.sampling.request(0));
+    return this.pictureLoaded;
+  }
+
+  /** Gives the graphics context back while nobody looks. */
+  rest(): void {
+    this.player.pause();
+    this.picture.unload();
+  }
+
+  /** Frees everything. With the next `apply` it can be used again. */
+  close(): void {
+    this.reducedMotion.removeEventListener('change', this.followMotion);
+    this.rest();
+    this.workshop.restart();
+  }
+
+  /** Shows what the settings say. False when the mesh or the metric was refused; the reason was told. */
+  async apply(): Promise<boolean> {
+    const { mesh, formula, event, pace, camera } = this.settings();
+    this.player.pace = pace;
+    this.picture.setLook(this.settings());
+    if (!(await this.open(mesh, formula))) return false;
+    if (camera) void this.pictureLoaded.then(() => (this.picture.pose = camera));
+    if (event !== null && event > 0) await this.run.start({ show: event });
+    return true;
+  }
+
+  /** Opens a mesh with a metric, see Subject.open. False when it was refused. */
+  async open(choice: MeshChoice, formula: string): Promise<boolean> {
+    let text: string;
+    try {
+      text = await this.subject.open(choice, formula);
+    } catch (error) {
+      this.host.tell(error);
+      this.host.refresh();
+      return false;
+    }
+    this.settings().mesh = choice;
+    this.takeFormula(text, true);
+    return true;
+  }
+
+  /** Another metric on the same mesh, shown if it is still wanted then. Rejects when it is refused. */
+  async setFormula(text: string, wanted: () => boolean = () => true): Promise<void> {
+    await this.workshop.setMetric(text);
+    if (wanted()) this.takeFormula(text, false);
+  }
+
+  /** Shows the mesh after so many events; starts a run when there is none. */
+  async seek(event: number): Promise<void> {
+    this.player.pause();
+    if (event <= 0 || this.player.complete || event <= this.player.events.length) this.player.seek(event);
+    else if (this.run.hasRun) this.run.awaited = event;
+    else await this.run.start({ show: event });
+  }
+
+  get caption(): string {
+    const { player, subject } = this;
+    if (subject.empty) return 'Loading';
+    return captionOf(player.current, player.mesh, this.settings().options.threshold, player.events.length);
+  }
+
+  /** The settings with what is shown now: what a link holds. */
+  get state(): Settings {
+    const { index } = this.player;
+    const event = this.run.awaited ?? (index > 0 ? index : null);
+    return { ...this.settings(), event, camera: this.picture.pose };
+  }
+
+  /** Back to the initial mesh, without a run. */
+  showInitial(fit: boolean): void {
+    this.run.reset();
+    this.host.setStatus('');
+    this.player.reset(this.subject.initial);
+    this.picture.clearEllipses();
+    this.picture.showAll(fit);
+    this.measuring.request(0);
+    this.sampling.request(0);
+    this.host.refresh();
+  }
+
+  private takeFormula(text: string, fit: boolean): void {
+    const settings = this.settings();
+    settings.formula = text === this.subject.ownFormula(settings.mesh) ? '' : text;
+    this.host.opened(text);
+    this.showInitial(fit);
+  }
+
+  private async measure(): Promise<void> {
+    const { mesh } = this.player;
+    const { points, cells } = mesh.snapshot();
+    const measures = await this.workshop.call('measure', { points, cells, lengths: true }, [
+      points.buffer,
+      cells.buffer,
+    ] as ArrayBuffer[]);
+    if (mesh !== this.player.mesh) return;
+    this.measures = measures;
+    this.picture.setShapes(measures.shapes as Float64Array<ArrayBuffer>);
+    this.host.measured(measures);
+  }
+}
