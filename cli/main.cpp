@@ -65,6 +65,9 @@ constexpr OptionHelp kOptions[] = {
     {"smooth", "none|end|between", "Method paper: when vertices are relocated (default end; between: after each iteration too)"},
     {"dice", "N", "Method paper: refine N times coarser, then split each cell in N^dim (default 1)"},
     {"thickness", "K", "Method paper: cells across a layer at its seed (default 1)"},
+    {"continuation", "N", 
+     "Method paper: approach the metric in N steps, from a floor on sizes that is halved; 0: at once; auto (default): "
+     "7 where sizes change fast in 3D"},
     {"augment", "N", "Rings of cells added at the ends of a layer, or auto (default): 1 in 2D, 0 in 3D"},
     {"max-cells", "N", "Stop with a valid mesh before it has more cells (default 10000000)"},
     {"max-iterations", "N", "Iterations at the most (default 30)"},
@@ -73,7 +76,7 @@ constexpr OptionHelp kOptions[] = {
 
 /// Options of the paper's method choose it, unless the other one is asked for.
 Status choose_method(const std::map<std::string, std::string>& given, AdaptOptions& options) {
-  for (const char* name : {"smooth", "dice", "thickness"}) {
+  for (const char* name : {"smooth", "dice", "thickness", "continuation"}) {
     const auto at = given.find(name);
     if (at == given.end() || at->second.empty()) continue;
     const auto method = given.find("method");

@@ -134,3 +134,17 @@ TEST_CASE("results that are missing or do not go together are named") {
   CHECK(contains(error_of<2>("m11=1;m12=0;m22=1;m33=1"), "column 19: 'm33' has no meaning"));
   CHECK(contains(error_of<2>("h = z"), "'z' is not available"));
 }
+
+TEST_CASE("a floor on sizes keeps the directions and gives the root of the sum of squares") {
+  const auto plane = field<2>("h1 = 0.1; h2 = 2; theta = 0.3").floored(0.5);
+  const auto wanted = field<2>("h1 = sqrt(0.1^2 + 0.25); h2 = sqrt(4.25); theta = 0.3");
+  const auto solid = field<3>("h1 = 0.001; h2 = 0.1; h3 = 3; theta = 0.7; phi = 1.1").scaled(2).floored(0.2);
+  const auto same = field<3>("h1 = sqrt(0.002^2 + 0.04); h2 = sqrt(0.08); h3 = sqrt(36.04); theta = 0.7; phi = 1.1");
+  const SymTensor<2> a = plane.evaluate({1, 2}), b = wanted.evaluate({1, 2});
+  const SymTensor<3> c = solid.evaluate({1, 2, 3}), d = same.evaluate({1, 2, 3});
+  for (int k = 0; k < 3; ++k) CHECK(a.m[k] == Approx(b.m[k]).epsilon(1e-12));
+  for (int k = 0; k < 6; ++k) CHECK(c.m[k] == Approx(d.m[k]).epsilon(1e-7));
+  CHECK(field<2>("h = x + 1").floored(0).evaluate({1, 2}) == field<2>("h = x + 1").evaluate({1, 2}));
+  // A floor is a size: it is scaled with the others.
+  CHECK(field<2>("h = 3").floored(4).scaled(2).evaluate({0, 0}).m[0] == Approx(0.01));
+}

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 
+#include "pillowmesh/adapt/continuation.h"
 #include "pillowmesh/adapt/recorder.h"
 #include "pillowmesh/adapt/schedule.h"
 #include "pillowmesh/adapt/tagging.h"
@@ -41,13 +43,15 @@ template <int Dim>
 struct Adapter<Dim>::State {
   Mesh<Dim> mesh;
   MetricField<Dim> field;
-  MetricField<Dim> target;  ///< the metric that refinement aims at: coarser than `field` before dicing
+  MetricField<Dim> target;  ///< the metric that refinement aims at: coarser than `field` before dicing and continuation
   AdaptOptions options;
   Context context;
 
   Stage stage = Stage::tag;
   Status outcome;
   int iteration = 0;
+  Continuation<Dim> continuation;
+  int first_iteration = 0;  ///< of this step of continuation
   int augment = 0;
   CellId first_new = 0;  ///< cells from here on were made in this iteration
   Tagging<Dim> tagging;
@@ -78,13 +82,15 @@ struct Adapter<Dim>::State {
   State(Mesh<Dim> m, MetricField<Dim> f, AdaptOptions o, Context c)
       : mesh(std::move(m)),
         field(std::move(f)),
-        target(o.dice > 1 ? field.scaled(o.dice) : field),
+        target(field),
         options(o),
         context(std::move(c)),
+        continuation(mesh, field, full() ? 0 : options.continuation),
         augment(options.augment >= 0 ? options.augment : (Dim == 2 ? 1 : 0)),
         tagging(mesh, options.threshold),
         recorder(options.record) {
     outcome = field.check(mesh.points);
+    target = aim();
     if (!outcome.ok()) stage = Stage::done;
     if constexpr (Dim == 3) {  // no layer may leave a worse cell than the input has, nor a bad one
       pillow.quality_floor = 0.02;
@@ -112,6 +118,20 @@ struct Adapter<Dim>::State {
     return stage != Stage::done;
   }
 
+  [[nodiscard]] MetricField<Dim> aim() const {
+    return continuation.approach(options.dice > 1 ? field.scaled(options.dice) : field);
+  }
+
+  /// The next step of continuation: smaller sizes, all edges to be looked at again, after smoothing for them.
+  void lower_floor() {
+    continuation.next();
+    target = aim();
+    tagging.look_at_all(mesh);
+    first_iteration = iteration;
+    stage = options.smoothing == Smoothing::none ? Stage::tag : Stage::smooth_between;
+    begin_smoothing();
+  }
+
   /// Step 1: tag the edges that are too long; balance.
   void find_tags() {
     const Stopwatch watch(refine_seconds);
@@ -122,8 +142,10 @@ struct Adapter<Dim>::State {
       report_progress("done");
       return;
     }
-    const bool again = iteration == 0 || inserted > 0;
-    if (seeds.empty() || !again || iteration == options.max_iterations) {
+    const bool again = iteration == first_iteration || inserted > 0;
+    const bool over = seeds.empty() || !again || iteration - first_iteration == options.max_iterations;
+    if (over && !continuation.done()) return lower_floor();
+    if (over) {
       if (!seeds.empty())
         outcome = Status::limit_not_met(
             again ? "edges longer than the threshold remain after " + std::to_string(iteration) + " iterations"
@@ -302,8 +324,8 @@ struct Adapter<Dim>::State {
         outcome = Status::limit_not_met("not diced: " + s.message);
       tags.mask.assign(mesh.cells.size(), 0);
     }
-    target = field;
     options.dice = 1;
+    target = aim();
     stage = Stage::smooth_end;
     begin_smoothing();
   }

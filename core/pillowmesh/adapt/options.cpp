@@ -32,6 +32,8 @@ Status read_real(std::string_view name, std::string_view value, double above, do
 Status set_option(AdaptOptions& options, std::string_view name, std::string_view value) {
   if (name == "threshold") return read_real(name, value, 1.0, 1e6, "above 1", options.threshold);
   if (name == "dice") return read_whole(name, value, 1, 16, options.dice);
+  if (name == "continuation" && value == "auto") return options.continuation = -1, Status{};
+  if (name == "continuation") return read_whole(name, value, 0, 40, options.continuation);
   if (name == "thickness") return read_whole(name, value, 1, 16, options.thickness);
   if (name == "augment" && value == "auto") return options.augment = -1, Status{};
   if (name == "augment") return read_whole(name, value, 0, 16, options.augment);

@@ -18,7 +18,7 @@ enum class Smoothing : std::uint8_t {
 
 /// Which method adapts.
 enum class Method : std::uint8_t {
-  automatic,  ///< full, unless an option of the paper's method says otherwise: smoothing, dice, thickness
+  automatic,  ///< full, unless an option of the paper's method says otherwise: smoothing, dice, ...
   full,   ///< refine, coarsen, reconnect and relocate (quads; hexahedra are refined as by `paper`)
   paper,  ///< refine and smooth, as the paper does
 };
@@ -39,6 +39,10 @@ struct AdaptOptions {
   Smoothing smoothing = Smoothing::end;
   /// n > 1: refine to edges n times as long, then split every cell in n^Dim ("coarse refinement and dicing").
   int dice = 1;
+  /// Paper's method: the metric is approached in so many steps, from sizes that do not fall below the mean edge of the
+  /// input, a floor that is halved from step to step (adapt/continuation.h). 0: at once; -1: at once unless, in 3D, sizes
+  /// change fast.
+  int continuation = -1;
   /// Cells across a layer at its seed: 1 as in the paper, 2 as Schneiders.
   int thickness = 1;
   /// Rings of cells added at the ends of each layer ("layers are augmented by their immediate neighbours"). -1: one in
@@ -65,7 +69,7 @@ inline constexpr bool kHasFullAdaptation =
 /// Whether quads are adapted in full with these options.
 inline bool full_adaptation(const AdaptOptions& o) {
   if (o.method != Method::automatic) return o.method == Method::full;
-  return o.smoothing == Smoothing::end && o.dice == 1 && o.thickness == 1;
+  return o.smoothing == Smoothing::end && o.dice == 1 && o.thickness == 1 && o.continuation <= 0;
 }
 
 /// Sets an option by its command-line name without dashes ("threshold", "smooth", "dice", ...).

@@ -129,6 +129,22 @@ class TensorBuilder {
   Graph& graph_;
 };
 
+// M becomes (M^-1 + size^2 I)^-1 = adj(adj M + s I) det M / det(adj M + s I) / det M, s = size^2 det M: no quotient of
+// large numbers where sizes are small.
+template <int Dim>
+void keep_above(double size, int count, TensorLanes<Dim>& out) {
+  for (int i = 0; i < count; ++i) {
+    SymTensor<Dim> M;
+    for (int k = 0; k < SymTensor<Dim>::size; ++k) M.m[k] = out[k][i];
+    const double det = determinant(M);
+    SymTensor<Dim> inverse = adjugate(M);
+    for (int d = 0; d < Dim; ++d) inverse.m[SymTensor<Dim>::at(d, d)] += size * size * det;
+    const double factor = det / determinant(inverse);
+    const SymTensor<Dim> floored = adjugate(inverse);
+    for (int k = 0; k < SymTensor<Dim>::size; ++k) out[k][i] = factor * floored.m[k];
+  }
+}
+
 std::string list_numbers(std::span<const double> values) {
   std::string text;
   for (const double v : values) {
@@ -179,11 +195,19 @@ MetricField<Dim> MetricField<Dim>::scaled(double factor) const {
 }
 
 template <int Dim>
+MetricField<Dim> MetricField<Dim>::floored(double size) const {
+  MetricField field = *this;
+  field.floor_ = size * std::sqrt(scale_);
+  return field;
+}
+
+template <int Dim>
 void MetricField<Dim>::evaluate(const PointLanes<Dim>& points, int count, TensorLanes<Dim>& out) const {
   if (discrete_)
     discrete_->evaluate(points, count, out);
   else
     program_->run(points.data(), count, out);
+  if (floor_ > 0.0) keep_above<Dim>(floor_, count, out);
   const double scale = scale_;
   if (scale == 1.0) return;
   for (Lanes& entry : out) {

@@ -42,6 +42,9 @@ class MetricField {
 
   /// The same field with all prescribed sizes multiplied by `factor` (> 0): M / factor^2.
   [[nodiscard]] MetricField scaled(double factor) const;
+  /// The same field with sizes that do not fall below `size` >= 0, in the unit of the coordinates: (M^-1 + size^2 I)^-1,
+  /// of which each size is sqrt(h^2 + size^2) and the directions are those of M.
+  [[nodiscard]] MetricField floored(double size) const;
 
   /// Tensors at many points at once: the fast way. \pre out.size() >= points.size(). Does not allocate.
   void evaluate(std::span<const Point<Dim>> points, std::span<SymTensor<Dim>> out) const;
@@ -60,7 +63,8 @@ class MetricField {
  private:
   std::shared_ptr<const Program> program_;  ///< one of these two
   std::shared_ptr<const DiscreteMetric<Dim>> discrete_;
-  double scale_ = 1.0;  // of the tensor
+  double scale_ = 1.0;  ///< of the tensor
+  double floor_ = 0.0;  ///< least size, before that
 };
 
 }  // namespace pillowmesh

@@ -57,4 +57,15 @@ inline double determinant(const SymTensor<Dim>& M) {
   }
 }
 
+/// det M M^-1
+template <int Dim>
+inline SymTensor<Dim> adjugate(const SymTensor<Dim>& M) {
+  if constexpr (Dim == 2) {
+    return {{M.m[2], -M.m[1], M.m[0]}};
+  } else {
+    const double a = M.m[0], b = M.m[1], c = M.m[2], d = M.m[3], e = M.m[4], f = M.m[5];
+    return {{c * f - e * e, d * e - b * f, a * f - d * d, b * e - c * d, b * d - a * e, a * c - b * b}};
+  }
+}
+
 }  // namespace pillowmesh

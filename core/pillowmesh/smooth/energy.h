@@ -52,15 +52,7 @@ struct CornerMetric {
 template <int Dim>
 inline CornerMetric<Dim> corner_metric(const SymTensor<Dim>& M) {
   const double det = determinant(M), inv = 1.0 / det;
-  CornerMetric<Dim> out{M, {}, std::sqrt(det)};
-  if constexpr (Dim == 2) {
-    out.inverse.m = {M.m[2] * inv, -M.m[1] * inv, M.m[0] * inv};
-  } else {
-    const double a = M.m[0], b = M.m[1], c = M.m[2], d = M.m[3], e = M.m[4], f = M.m[5];
-    out.inverse.m = {(c * f - e * e) * inv, (d * e - b * f) * inv, (a * f - d * d) * inv,
-                     (b * e - c * d) * inv, (b * d - a * e) * inv, (a * c - b * b) * inv};
-  }
-  return out;
+  return {M, inv * adjugate(M), std::sqrt(det)};
 }
 
 template <int Dim>

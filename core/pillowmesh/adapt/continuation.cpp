@@ -1,0 +1,58 @@
+#include "pillowmesh/adapt/continuation.h"
+
+#include <cmath>
+#include <vector>
+
+#include "pillowmesh/mesh/topology.h"
+#include "pillowmesh/metric/spectrum.h"
+
+namespace pillowmesh {
+namespace {
+
+template <int Dim>
+double mean_edge(const Mesh<Dim>& mesh) {
+  double sum = 0.0;
+  const auto edges = unique_edges(mesh);
+  for (const auto& [a, b] : edges) sum += std::sqrt((mesh.points[b] - mesh.points[a]).squaredNorm());
+  return edges.empty() ? 0.0 : sum / static_cast<double>(edges.size());
+}
+
+}  // namespace
+
+template <int Dim>
+int steps_for(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
+  constexpr int steps = 7;
+  constexpr double steep = 0.5;
+  if (Dim == 2) return 0;
+  std::vector<SymTensor<Dim>> tensors(mesh.points.size());
+  field.evaluate(mesh.points, tensors);
+  std::vector<double> size(tensors.size());
+  for (std::size_t v = 0; v < size.size(); ++v) size[v] = 1.0 / std::sqrt(spectrum(tensors[v]).value[Dim - 1]);
+  for (const auto& [a, b] : unique_edges(mesh))
+    if (std::abs(size[b] - size[a]) > steep * std::sqrt((mesh.points[b] - mesh.points[a]).squaredNorm())) return steps;
+  return 0;
+}
+
+template <int Dim>
+Continuation<Dim>::Continuation(const Mesh<Dim>& mesh, const MetricField<Dim>& field, int steps)
+    : steps_(steps >= 0 ? steps : steps_for(mesh, field)) {
+  if (steps_ > 0) floor_ = mean_edge(mesh);
+}
+
+template <int Dim>
+void Continuation<Dim>::next() {
+  --steps_;
+  floor_ = steps_ > 0 ? 0.5 * floor_ : 0.0;
+}
+
+template <int Dim>
+MetricField<Dim> Continuation<Dim>::approach(const MetricField<Dim>& field) const {
+  return floor_ > 0.0 ? field.floored(floor_) : field;
+}
+
+template class Continuation<2>;
+template class Continuation<3>;
+template int steps_for(const Mesh<2>&, const MetricField<2>&);
+template int steps_for(const Mesh<3>&, const MetricField<3>&);
+
+}  // namespace pillowmesh
