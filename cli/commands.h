@@ -5,17 +5,19 @@
 
 #include "pillowmesh/adapt/options.h"
 #include "pillowmesh/io/io.h"
+#include "pillowmesh/metric/combine.h"
 
 namespace pillowmesh::cli {
 
 /// Where mesh and metric come from.
 struct ProblemFlags {
-  std::string input;      ///< a file, a primitive (grid:...), or empty: the mesh of the case
-  std::string metric;     ///< a formula
+  std::string input;        ///< a file, a primitive (grid:...), or empty: the mesh of the case
+  std::string metric;       ///< a formula
   std::string metric_file;  ///< a .sol file
   std::string background;   ///< the mesh that it belongs to; empty: the input
-  std::string case_name;  ///< a name of the gallery
+  std::string case_name;    ///< a name of the gallery
   double size_scale = 1.0;
+  MetricOperations operations;
 };
 
 struct AdaptFlags {

@@ -17,8 +17,7 @@ std::string dimensional(int dim) { return std::to_string(dim) + "-dimensional"; 
 /// The vertices and cells of the file or primitive that a .sol belongs to.
 template <int Dim>
 Expected<NodalMetric<Dim>> load_background(const std::string& name, const Mesh<Dim>& input, bool is_input) {
-  if (is_input && is_primitive(name))
-    return NodalMetric<Dim>{input.points, divide<Dim>(input.points, input.cells), {}};
+  if (is_input && is_primitive(name)) return NodalMetric<Dim>{input.points, divide<Dim>(input.points, input.cells), {}};
   if (is_primitive(name)) {
     auto mesh = parse_primitive(name);
     if (!mesh) return mesh.status();
@@ -35,7 +34,7 @@ Expected<NodalMetric<Dim>> load_background(const std::string& name, const Mesh<D
 }
 
 template <int Dim>
-Expected<MetricField<Dim>> metric_from_file(const ProblemFlags& flags, const Mesh<Dim>& mesh) {
+Expected<NodalMetric<Dim>> metric_from_file(const ProblemFlags& flags, const Mesh<Dim>& mesh) {
   const bool own = flags.background.empty();
   auto background = load_background<Dim>(own ? flags.input : flags.background, mesh, own);
   if (!background) return background.status();
@@ -46,15 +45,15 @@ Expected<MetricField<Dim>> metric_from_file(const ProblemFlags& flags, const Mes
   auto tensors = metric_of_sol<Dim>(*sol, flags.metric_file, background->points.size());
   if (!tensors) return tensors.status();
   background->tensors = std::move(*tensors);
-  auto field = look_up(std::move(*background));
-  if (!field) return Status::bad_input(flags.metric_file + ": " + field.status().message);
-  return field;
+  if (Status s = check_tensors<Dim>(background->tensors, background->points.size()); !s.ok())
+    return Status::bad_input(flags.metric_file + ": " + s.message);
+  return background;
 }
 
-}  // namespace
-
+/// All that the flags name, each as it is.
 template <int Dim>
-Expected<MetricField<Dim>> problem_metric(const ProblemFlags& flags, const Mesh<Dim>& mesh) {
+Expected<std::vector<MetricSource<Dim>>> metric_sources(const ProblemFlags& flags, const Mesh<Dim>& mesh) {
+  std::vector<MetricSource<Dim>> sources;
   std::string formula = flags.metric;
   if (!flags.case_name.empty()) {
     auto c = named_case(flags.case_name);
@@ -64,10 +63,28 @@ Expected<MetricField<Dim>> problem_metric(const ProblemFlags& flags, const Mesh<
                            dimensional(Dim));
     formula = (*c)->formula;
   }
-  auto field = formula.empty() ? metric_from_file(flags, mesh) : MetricField<Dim>::from_formula(formula);
-  if (!field) return field;
-  if (Status s = field->check(mesh.points); !s.ok()) return s;
-  return flags.size_scale == 1.0 ? field : field->scaled(flags.size_scale);
+  if (!formula.empty()) {
+    auto field = MetricField<Dim>::from_formula(formula);
+    if (!field) return field.status();
+    sources.push_back(std::move(*field));
+  }
+  if (!flags.metric_file.empty()) {
+    auto metric = metric_from_file(flags, mesh);
+    if (!metric) return metric.status();
+    sources.push_back(std::move(*metric));
+  }
+  return sources;
+}
+
+}  // namespace
+
+template <int Dim>
+Expected<MetricField<Dim>> problem_metric(const ProblemFlags& flags, const Mesh<Dim>& mesh) {
+  auto sources = metric_sources(flags, mesh);
+  if (!sources) return sources.status();
+  auto field = combine_field(*sources, flags.operations, mesh);
+  if (!field || flags.size_scale == 1.0) return field;
+  return field->scaled(flags.size_scale);
 }
 
 template Expected<MetricField<2>> problem_metric<2>(const ProblemFlags&, const Mesh<2>&);

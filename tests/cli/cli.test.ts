@@ -118,6 +118,9 @@ describe('usage errors have exit status 2', () => {
     ['an unknown subcommand', ['adpat'], ["did you mean 'adapt'?"]],
     ['an unknown option', ['adapt', '--case', 'iso2d', '--colour', 'red'], ['--colour', 'pillowmesh adapt --help']],
     ['a background without a metric file', ['adapt', '--case', 'iso2d', '--background', 'a.mesh'], ['--metric-file']],
+    ['a gradation of 1', ['adapt', '--case', 'iso2d', '--gradation', '1'], ['--gradation', 'above 1']],
+    ['bounds the wrong way round', ['measure', '--case', 'iso2d', '--hmin', '2', '--hmax', '1'], ['--hmin is above --hmax']],
+    ['a number of cells beyond the bounds', ['measure', '--case', 'iso2d', '--hmin', '1', '--target-cells', '1e5'], ['about 63 cells']],
     ['a metric written as .vtk', ['metric', '--case', 'iso2d', '-o', 'a.vtk'], ['.sol']],
     ['the paper’s options with the other method', ['adapt', '--case', 'iso2d', '--method', 'full', '--dice', '2'], ['--dice', '--method paper']],
     ['an unknown effort', ['adapt', '--case', 'iso2d', '--effort', 'more'], ['fast, normal, best', "'more'"]],
@@ -243,6 +246,29 @@ describe('convert', () => {
     ok('convert', data('plate_hole_v4.msh'), file('one.vtu'));
     ok('convert', data('plate_hole_v4.msh'), file('two.vtu'));
     expect(readFileSync(file('two.vtu'))).toEqual(readFileSync(file('one.vtu')));
+  });
+});
+
+describe('operations on metrics', () => {
+  test.each([
+    ['full', ['--case', 'iso2d', '--effort', 'fast']],
+    ['paper', ['--case', 'iso2d', '--method', 'paper']],
+    ['full with bounds', ['--case', 'iso2d', '--effort', 'fast', '--hmin', '0.1', '--gradation', '1.3']],
+  ])('--target-cells is met within 5 %% by method %s', (_name, args) => {
+    const report = JSON.parse(ok('adapt', ...args, '--target-cells', '500', '--report', '-')) as Report;
+    expect(report.mesh.cells).toBeGreaterThanOrEqual(475);
+    expect(report.mesh.cells).toBeLessThanOrEqual(525);
+    expect(report.valid).toBe(true);
+  });
+
+  test('a metric of a billion cells stops at --max-cells with a valid mesh and status 1', () => {
+    const done = pillowmesh('adapt', 'grid:4,4:0,1,0,1', '--metric', 'h = 0.5', '--target-cells', '1e9', '--max-cells', '20000',
+      '-o', file('most.mesh'));
+    expect(done.status).toBe(1);
+    expect(done.err).toContain('20000 cells');
+    const report = JSON.parse(ok('measure', file('most.mesh'), '--metric', 'h = 1', '--report', '-')) as Report;
+    expect(report.valid).toBe(true);
+    expect(report.mesh.cells).toBeLessThanOrEqual(20000);
   });
 });
 
