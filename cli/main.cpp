@@ -57,6 +57,26 @@ void add_problem(CLI::App& app, ProblemFlags& flags, Given& given) {
   app.add_option("--background", flags.background,
                  "Mesh that --metric-file belongs to; triangles and tets too (default: input)")
       ->type_name("MESH");
+  app.add_option("--metric-image", flags.image,
+                 "Metric from the Hessian of a picture: PNG, JPEG, BMP, PNM (6000 cells by default)")
+      ->type_name("F.png");
+  app.add_option("--hessian-of", flags.hessian_of,
+                 "Metric from the Hessian of a function, e.g. \"tanh(20*(x-.5*sin(3*y)))\"")
+      ->type_name("FORMULA");
+  app.add_option("--hessian-file", flags.hessian_file, "Metric from the Hessian of a solution: a scalar per vertex")
+      ->type_name("F.sol");
+  app.add_option("--norm", flags.norm, "Hessians: keep the error small in the norm L^P (default 2, pictures 1; inf)")
+      ->type_name("P");
+  app.add_option("--error", flags.error, "Hessians: interpolation error asked for, in place of --target-cells")
+      ->type_name("E");
+  app.add_option("--metric-of", flags.metric_of, "Metric that another mesh has")->type_name("MESH");
+  app.add_option("--sketch", flags.sketch, "Metric from dabs, one per line: x y radius size [angle stretch]")
+      ->type_name("F");
+  app.add_option("--boundary-layer", flags.layers,
+                 "Layers along a boundary group, first height, growth; may be repeated")
+      ->type_name("GROUP:H:G");
+  app.add_option("--curvature", flags.curvature, "Cells so small at curved boundaries that a full circle gets N")
+      ->type_name("N");
   app.add_option("--case", flags.case_name, "Named case: its metric, and its mesh if none is given (see cases)")
       ->type_name("NAME");
   app.add_option("--size-scale", flags.size_scale, "Multiplies all sizes of the metric")->type_name("F");

@@ -47,10 +47,11 @@ class Sampling {
     constexpr double kAlong = Dim == 2 ? 32.0 : 10.0;
     double longest = 0.0;
     for (int d = 0; d < Dim; ++d) longest = std::max(longest, high[d] - low[d]);
+    const double along = std::clamp(longest / options_.finest_start, kAlong, 8.0 * kAlong);
     std::array<Index, Dim> n;
     std::array<Index, Dim + 1> stride{1};
     for (int d = 0; d < Dim; ++d) {
-      n[d] = std::max<Index>(2, static_cast<Index>(std::ceil(kAlong * (high[d] - low[d]) / longest)));
+      n[d] = std::max<Index>(2, static_cast<Index>(std::ceil(along * (high[d] - low[d]) / longest)));
       stride[d + 1] = stride[d] * (n[d] + 1);
     }
     for (Index i = 0; i < stride[Dim]; ++i) {

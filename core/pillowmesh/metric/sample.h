@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <span>
 
 #include "pillowmesh/metric/nodal.h"
@@ -14,6 +15,9 @@ struct SampleOptions {
   double tolerance = 0.05;
   /// Edges shorter than this metric length are not divided any more: kinks and jumps are as wide as that.
   double shortest = 0.25;
+  /// The first grid, otherwise 32 (3D: 10) cells along the longest side, is as fine as this, up to 8 times finer:
+  /// features smaller than its cells may be missed.
+  double finest_start = std::numeric_limits<double>::infinity();
   /// No more division beyond this number of vertices.
   std::size_t max_points = 150'000;
 };
