@@ -1,6 +1,8 @@
 // pillowmesh adapt
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "cli/commands.h"
@@ -60,6 +62,34 @@ Status run(Adapter<Dim>& adapter, StepFiles& steps, ProgressLine& progress) {
   return {};
 }
 
+/// Whether a run came to its own end: edges that stay too long are no reason to stop.
+bool usable(const Status& outcome) { return outcome.ok() || outcome.message.starts_with("edges longer"); }
+
+template <int Dim>
+double live_cells(const Mesh<Dim>& mesh) {
+  double count = 0.0;
+  for (CellId c = 0; c < mesh.cell_count(); ++c) count += mesh.alive(c) ? 1.0 : 0.0;
+  return count;
+}
+
+/// Adapts until the mesh has the number of cells that is asked for, within 5 %. The complexity of the metric is that
+/// number from the start, and full adaptation meets it; layers alone make more cells, in a proportion that hardly
+/// changes with the sizes: then again with other sizes, a few times. \param adapt_to gives cells / target
+template <int Dim, class AdaptTo>
+Status meet_target(const MetricField<Dim>& field, AdaptTo&& adapt_to) {
+  double low = -20.0, high = 20.0, at = 0.0;  // log of the factor on all sizes
+  constexpr int kRuns = 10;
+  for (int i = 0; i < kRuns; ++i) {
+    const Expected<double> ratio = adapt_to(at == 0.0 ? field : field.scaled(std::exp(at)));
+    if (!ratio) return ratio.status();
+    if (std::fabs(*ratio - 1.0) <= 0.05) return {};
+    (*ratio > 1.0 ? low : high) = at;
+    at += std::log(*ratio) / Dim;
+    if (!(at > low && at < high)) at = 0.5 * (low + high);
+  }
+  return {};
+}
+
 template <int Dim>
 int adapt_mesh(Mesh<Dim> mesh, const AdaptFlags& flags, double read_seconds) {
   auto field = problem_metric<Dim>(flags.problem, mesh);
@@ -77,8 +107,19 @@ int adapt_mesh(Mesh<Dim> mesh, const AdaptFlags& flags, double read_seconds) {
   Context context;
   context.cancelled = interrupted;
   context.progress = [&](double share, std::string_view activity) { progress.set(share, activity); };
-  Adapter<Dim> adapter(std::move(mesh), *field, flags.options, std::move(context));
-  if (Status s = run(adapter, steps, progress); !s.ok()) return fail(s);
+  const double target = flags.problem.operations.cells;
+  std::optional<Adapter<Dim>> best;
+  const auto adapt_to = [&](const MetricField<Dim>& metric) -> Expected<double> {
+    Adapter<Dim> adapter(target > 0.0 ? mesh : std::move(mesh), metric, flags.options, context);
+    if (Status s = run(adapter, steps, progress); !s.ok()) return s;
+    const double ratio = target > 0.0 ? live_cells(adapter.mesh()) / target : 1.0;
+    if (!best || std::fabs(ratio - 1.0) < std::fabs(live_cells(best->mesh()) / target - 1.0))
+      best.emplace(std::move(adapter));
+    return usable(best->outcome()) ? ratio : 1.0;  // stopped for another reason: that is all there is
+  };
+  if (Status s = meet_target<Dim>(*field, adapt_to); !s.ok()) return fail(s);
+  const Adapter<Dim>& adapter = *best;
+  field = adapter.field();
   const double adapt_seconds = clock.lap();
   const Status& outcome = adapter.outcome();
   if (outcome.code == StatusCode::bad_input || outcome.code == StatusCode::usage) return fail(outcome);
@@ -99,6 +140,9 @@ int adapt_mesh(Mesh<Dim> mesh, const AdaptFlags& flags, double read_seconds) {
   if (Status s = write_report(report, flags.report); !s.ok()) return fail(s);
   if (print) std::fputs(table(report, &initial).c_str(), stdout);
   if (!outcome.ok()) return fail(outcome);
+  if (target > 0.0 && std::fabs(live_cells(adapter.mesh()) / target - 1.0) > 0.05)
+    return fail(Status::limit_not_met("the mesh has " + std::to_string(report.cells) +
+                                      " cells, more than 5 % from --target-cells"));
   return report.valid ? 0 : fail(Status::limit_not_met("the adapted mesh is not valid: " + report.defect));
 }
 

@@ -19,6 +19,10 @@ int cases() {
                 text(c.title), c.title.data(), c.dim, text(c.source), c.source.data(), text(c.mesh), c.mesh.data(),
                 formula.c_str());
   }
+  const Case& portrait = portrait_case();
+  std::printf(
+      "%s          %s (%s)\n  mesh           %s\n  metric         of an image that is computed, see --metric-image\n\n",
+      portrait.name.data(), portrait.title.data(), portrait.source.data(), portrait.mesh.data());
   std::puts("Run one with: pillowmesh adapt --case NAME -o OUT.vtu");
   return 0;
 }

@@ -2,20 +2,32 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "pillowmesh/adapt/options.h"
 #include "pillowmesh/io/io.h"
+#include "pillowmesh/metric/combine.h"
 
 namespace pillowmesh::cli {
 
 /// Where mesh and metric come from.
 struct ProblemFlags {
-  std::string input;      ///< a file, a primitive (grid:...), or empty: the mesh of the case
-  std::string metric;     ///< a formula
-  std::string metric_file;  ///< a .sol file
-  std::string background;   ///< the mesh that it belongs to; empty: the input
-  std::string case_name;  ///< a name of the gallery
+  std::string input;                ///< a file, a primitive (grid:...), or empty: the mesh of the case
+  std::string metric;               ///< a formula
+  std::string metric_file;          ///< a .sol file
+  std::string background;           ///< the mesh that it belongs to; empty: the input
+  std::string case_name;            ///< a name of the gallery
+  std::string image;                ///< PNG, JPEG, PNM, BMP
+  std::string hessian_of;           ///< a function
+  std::string hessian_file;         ///< its values, a .sol file
+  std::string metric_of;            ///< a mesh
+  std::string sketch;               ///< a list of dabs
+  std::vector<std::string> layers;  ///< GROUP:FIRST:GROWTH
+  double curvature = 0.0;           ///< cells on a full circle; 0: none
+  double norm = 0.0;                ///< 0: as the source says
+  double error = 0.0;
   double size_scale = 1.0;
+  MetricOperations operations;
 };
 
 struct AdaptFlags {

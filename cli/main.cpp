@@ -31,16 +31,64 @@ constexpr const char* kMetricHelp =
 constexpr const char* kExitHelp =
     "Exit status: 0 done; 1 finished, but a requested limit was not met; 2 usage; 3 bad input.\n";
 
-void add_problem(CLI::App& app, ProblemFlags& flags) {
+/// Operations of MetricOperations: parsed by set_operation, which the page uses too.
+struct OptionHelp {
+  const char* name;
+  const char* type;
+  const char* text;
+};
+constexpr OptionHelp kOperations[] = {
+    {"target-cells", "N", "Scale all sizes so that the adapted mesh has N cells, to 5 %"},
+    {"hmin", "H", "No size below H"},
+    {"hmax", "H", "No size above H"},
+    {"max-anisotropy", "A", "No size more than A times another at the same point"},
+    {"gradation", "G", "Sizes grow by at most the factor G from one cell to the next"},
+};
+
+/// What the command line gave, by option.
+using Given = std::map<std::string, std::string>;
+
+void add_problem(CLI::App& app, ProblemFlags& flags, Given& given) {
   app.add_option("input", flags.input, "Mesh file or grid:...; may be left out with --case");
   app.add_option("--metric", flags.metric, "Metric formula")->type_name("FORMULA");
-  app.add_option("--metric-file", flags.metric_file, "Metric from a Medit .sol or .solb file: a size or tensor per vertex")
+  app.add_option("--metric-file", flags.metric_file,
+                 "Metric from a Medit .sol or .solb file: a size or tensor per vertex")
       ->type_name("F.sol");
-  app.add_option("--background", flags.background, "Mesh that --metric-file belongs to; triangles and tets too (default: input)")
+  app.add_option("--background", flags.background,
+                 "Mesh that --metric-file belongs to; triangles and tets too (default: input)")
       ->type_name("MESH");
+  app.add_option("--metric-image", flags.image,
+                 "Metric from the Hessian of a picture: PNG, JPEG, BMP, PNM (6000 cells by default)")
+      ->type_name("F.png");
+  app.add_option("--hessian-of", flags.hessian_of,
+                 "Metric from the Hessian of a function, e.g. \"tanh(20*(x-.5*sin(3*y)))\"")
+      ->type_name("FORMULA");
+  app.add_option("--hessian-file", flags.hessian_file, "Metric from the Hessian of a solution: a scalar per vertex")
+      ->type_name("F.sol");
+  app.add_option("--norm", flags.norm, "Hessians: keep the error small in the norm L^P (default 2, pictures 1; inf)")
+      ->type_name("P");
+  app.add_option("--error", flags.error, "Hessians: interpolation error asked for, in place of --target-cells")
+      ->type_name("E");
+  app.add_option("--metric-of", flags.metric_of, "Metric that another mesh has")->type_name("MESH");
+  app.add_option("--sketch", flags.sketch, "Metric from dabs, one per line: x y radius size [angle stretch]")
+      ->type_name("F");
+  app.add_option("--boundary-layer", flags.layers,
+                 "Layers along a boundary group, first height, growth; may be repeated")
+      ->type_name("GROUP:H:G");
+  app.add_option("--curvature", flags.curvature, "Cells so small at curved boundaries that a full circle gets N")
+      ->type_name("N");
   app.add_option("--case", flags.case_name, "Named case: its metric, and its mesh if none is given (see cases)")
       ->type_name("NAME");
   app.add_option("--size-scale", flags.size_scale, "Multiplies all sizes of the metric")->type_name("F");
+  for (const OptionHelp& o : kOperations)
+    app.add_option(std::string("--") + o.name, given[o.name], o.text)->type_name(o.type);
+}
+
+Status set_operations(const CLI::App& app, const Given& given, ProblemFlags& flags) {
+  for (const OptionHelp& o : kOperations)
+    if (app.count(std::string("--") + o.name) > 0)
+      if (Status s = set_operation(flags.operations, o.name, given.at(o.name)); !s.ok()) return s;
+  return {};
 }
 
 void add_write(CLI::App& app, WriteOptions& write, std::string& gmsh) {
@@ -49,11 +97,6 @@ void add_write(CLI::App& app, WriteOptions& write, std::string& gmsh) {
 }
 
 /// The options of AdaptOptions: parsed by set_option, which the page and permalinks use too.
-struct OptionHelp {
-  const char* name;
-  const char* type;
-  const char* text;
-};
 constexpr OptionHelp kOptions[] = {
     {"method", "auto|full|paper",
      "full: refine, coarsen, reconnect and relocate quads; paper: refine and smooth, as for hexahedra; auto "
@@ -62,10 +105,11 @@ constexpr OptionHelp kOptions[] = {
     {"effort", "fast|normal|best", "How long method full searches (default normal)"},
     {"align", "A", "Method full: how much edges follow the metric's directions, 0 to 1 (default 1)"},
     {"seed", "N", "Method full: of its random numbers; the same seed gives the same mesh everywhere (default 1)"},
-    {"smooth", "none|end|between", "Method paper: when vertices are relocated (default end; between: after each iteration too)"},
+    {"smooth", "none|end|between",
+     "Method paper: when vertices are relocated (default end; between: after each iteration too)"},
     {"dice", "N", "Method paper: refine N times coarser, then split each cell in N^dim (default 1)"},
     {"thickness", "K", "Method paper: cells across a layer at its seed (default 1)"},
-    {"continuation", "N", 
+    {"continuation", "N",
      "Method paper: approach the metric in N steps, from a floor on sizes that is halved; 0: at once; auto (default): "
      "7 where sizes change fast in 3D"},
     {"augment", "N", "Rings of cells added at the ends of a layer, or auto (default): 1 in 2D, 0 in 3D"},
@@ -75,7 +119,7 @@ constexpr OptionHelp kOptions[] = {
 };
 
 /// Options of the paper's method choose it, unless the other one is asked for.
-Status choose_method(const std::map<std::string, std::string>& given, AdaptOptions& options) {
+Status choose_method(const Given& given, AdaptOptions& options) {
   for (const char* name : {"smooth", "dice", "thickness", "continuation"}) {
     const auto at = given.find(name);
     if (at == given.end() || at->second.empty()) continue;
@@ -126,15 +170,17 @@ int run(int argc, char** argv) {
 
   AdaptFlags adapt_flags;
   std::string adapt_gmsh;
-  std::map<std::string, std::string> given;
+  Given given, measure_given, metric_given;
   CLI::App* adapt_app = app.add_subcommand("adapt", "Adapt a mesh to a metric");
-  add_problem(*adapt_app, adapt_flags.problem);
+  add_problem(*adapt_app, adapt_flags.problem, given);
   for (const OptionHelp& o : kOptions)
     adapt_app->add_option(std::string("--") + o.name, given[o.name], o.text)->type_name(o.type);
   adapt_app->add_option("-o,--output", adapt_flags.output, "Adapted mesh; its ending chooses the format")
       ->type_name("OUT");
   add_write(*adapt_app, adapt_flags.write, adapt_gmsh);
-  adapt_app->add_option("--steps", adapt_flags.steps, "Write the mesh after each iteration, and the last: DIR/step-000.vtu, ...")
+  adapt_app
+      ->add_option("--steps", adapt_flags.steps,
+                   "Write the mesh after each iteration, and the last: DIR/step-000.vtu, ...")
       ->type_name("DIR");
   adapt_app->add_option("--report", adapt_flags.report, "Write the indicators as JSON; - for stdout")
       ->type_name("R.json");
@@ -150,7 +196,7 @@ int run(int argc, char** argv) {
 
   MeasureFlags measure_flags;
   CLI::App* measure_app = app.add_subcommand("measure", "Print the indicators of any quad or hex mesh");
-  add_problem(*measure_app, measure_flags.problem);
+  add_problem(*measure_app, measure_flags.problem, measure_given);
   measure_app->add_option("--report", measure_flags.report, "Write the indicators as JSON; - for stdout")
       ->type_name("R.json");
   measure_app->footer(std::string("Examples:\n"
@@ -160,14 +206,15 @@ int run(int argc, char** argv) {
 
   MetricFlags metric_flags;
   CLI::App* metric_app = app.add_subcommand("metric", "Write a metric at the vertices of a mesh, as .sol");
-  add_problem(*metric_app, metric_flags.problem);
+  add_problem(*metric_app, metric_flags.problem, metric_given);
   metric_app->add_option("-o,--output", metric_flags.output, "Medit .sol (text) or .solb (binary)")
       ->type_name("F.sol")
       ->required();
-  metric_app->footer(std::string("Examples:\n"
-                                 "  pillowmesh metric --case circle2d grid:200,200:-1,1,-1,1 -o circle.sol\n"
-                                 "  pillowmesh metric plate.mesh --metric \"h = 0.02 + 0.15*abs(x-2)\" -o plate.sol\n\n") +
-                     kMeshHelp + kMetricHelp + kExitHelp);
+  metric_app->footer(
+      std::string("Examples:\n"
+                  "  pillowmesh metric --case circle2d grid:200,200:-1,1,-1,1 -o circle.sol\n"
+                  "  pillowmesh metric plate.mesh --metric \"h = 0.02 + 0.15*abs(x-2)\" -o plate.sol\n\n") +
+      kMeshHelp + kMetricHelp + kExitHelp);
 
   ConvertFlags convert_flags;
   std::string convert_gmsh;
@@ -194,6 +241,9 @@ int run(int argc, char** argv) {
   for (const OptionHelp& o : kOptions)
     if (adapt_app->count(std::string("--") + o.name) > 0)
       if (Status s = set_option(adapt_flags.options, o.name, given[o.name]); !s.ok()) return fail(s);
+  if (Status s = set_operations(*adapt_app, given, adapt_flags.problem); !s.ok()) return fail(s);
+  if (Status s = set_operations(*measure_app, measure_given, measure_flags.problem); !s.ok()) return fail(s);
+  if (Status s = set_operations(*metric_app, metric_given, metric_flags.problem); !s.ok()) return fail(s);
   if (Status s = choose_method(given, adapt_flags.options); !s.ok()) return fail(s);
   if (Status s = set_gmsh_version(adapt_flags.write, adapt_gmsh); !s.ok()) return fail(s);
   if (Status s = set_gmsh_version(convert_flags.write, convert_gmsh); !s.ok()) return fail(s);

@@ -8,23 +8,41 @@
 namespace pillowmesh::cli {
 namespace {
 
+/// Norm, error and curvature: what has to be above what.
+Status check_numbers(const ProblemFlags& flags) {
+  const bool curved = !flags.hessian_of.empty() || !flags.hessian_file.empty() || !flags.image.empty();
+  if (flags.norm != 0.0 && !(flags.norm >= 1.0)) return Status::usage("--norm takes a number from 1, or inf");
+  if (flags.error != 0.0 && !(flags.error > 0.0)) return Status::usage("--error takes a number above 0");
+  if (flags.curvature != 0.0 && !(flags.curvature >= 3.0)) return Status::usage("--curvature takes a number from 3");
+  if ((flags.norm != 0.0 || flags.error != 0.0) && !curved)
+    return Status::usage("--norm and --error belong to --hessian-of, --hessian-file and --metric-image");
+  if ((!flags.hessian_of.empty() || !flags.hessian_file.empty()) && flags.error == 0.0 && flags.operations.cells == 0.0)
+    return Status::usage(
+        "a Hessian says where cells should be small, not how small: give --target-cells N or --error E");
+  return {};
+}
+
 bool names_metric(const ProblemFlags& flags) {
-  return !flags.metric.empty() || !flags.case_name.empty() || !flags.metric_file.empty();
+  for (const std::string* source : {&flags.metric, &flags.case_name, &flags.metric_file, &flags.image,
+                                    &flags.hessian_of, &flags.hessian_file, &flags.metric_of, &flags.sketch})
+    if (!source->empty()) return true;
+  return !flags.layers.empty() || flags.curvature > 0.0;
 }
 
 }  // namespace
 
 Expected<const Case*> named_case(const std::string& name) {
   if (const Case* c = find_case(name)) return c;
-  std::vector<std::string> names;
+  if (name == portrait_case().name) return &portrait_case();
+  std::vector<std::string> names{std::string(portrait_case().name)};
   std::string all;
   for (const Case& c : gallery()) {
     names.emplace_back(c.name);
-    all += (all.empty() ? "" : " ") + names.back();
+    all += names.back() + " ";
   }
   const std::string near = nearest(name, names);
   return Status::usage("there is no case '" + name + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
-                       " (cases: " + all + ")");
+                       " (cases: " + all + std::string(portrait_case().name) + ")");
 }
 
 namespace {
@@ -69,9 +87,11 @@ Expected<AnyMesh> problem_mesh(const ProblemFlags& flags) {
     return Status::usage("--size-scale takes a number above 0");
   if (!flags.metric.empty() && !flags.case_name.empty()) return Status::usage("--metric and --case exclude each other");
   if (!names_metric(flags))
-    return Status::usage("a metric is missing: give --metric \"h = ...\", --metric-file F.sol or --case NAME");
-  if (!flags.background.empty() && flags.metric_file.empty())
-    return Status::usage("--background is the mesh of --metric-file, which is missing");
+    return Status::usage(
+        "a metric is missing: give --metric \"h = ...\", --metric-file F.sol --case NAME or another source");
+  if (!flags.background.empty() && flags.metric_file.empty() && flags.hessian_file.empty())
+    return Status::usage("--background is the mesh of --metric-file or --hessian-file, which is missing");
+  if (Status s = check_numbers(flags); !s.ok()) return s;
   if (!flags.case_name.empty()) {
     auto c = named_case(flags.case_name);
     if (!c) return c.status();

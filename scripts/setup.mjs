@@ -17,6 +17,7 @@ const forTest = [
   ...forStart,
   { apt: 'catch2', has: ['/usr/include/catch2/catch.hpp', '/usr/include/catch2/catch_all.hpp'] },
   { apt: 'libcli11-dev', has: ['/usr/include/CLI/CLI.hpp'] },
+  { apt: 'libstb-dev', has: ['/usr/include/stb/stb_image.h'] },
   { apt: 'pkg-config', has: ['pkg-config'] },
   { apt: 'python3-meshio', has: ['/usr/lib/python3/dist-packages/meshio/__init__.py'] },
   { apt: browserPackage(), has: ['chromium', 'google-chrome', 'google-chrome-stable', 'chromium-browser'] },

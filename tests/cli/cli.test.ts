@@ -118,6 +118,13 @@ describe('usage errors have exit status 2', () => {
     ['an unknown subcommand', ['adpat'], ["did you mean 'adapt'?"]],
     ['an unknown option', ['adapt', '--case', 'iso2d', '--colour', 'red'], ['--colour', 'pillowmesh adapt --help']],
     ['a background without a metric file', ['adapt', '--case', 'iso2d', '--background', 'a.mesh'], ['--metric-file']],
+    ['a Hessian without a number of cells', ['measure', grid, '--hessian-of', 'x^2'], ['--target-cells N or --error E']],
+    ['a mistake in a function', ['measure', grid, '--hessian-of', 'x^2 + w', '--error', '1'], ['column 7', "'w'"]],
+    ['a boundary group that is not there', ['measure', grid, '--boundary-layer', 'inlet:0.1:1.2'], ["'inlet'", 'xmin']],
+    ['a picture on hexahedra', ['measure', 'grid:1,1,1:0,1,0,1,0,1', '--metric-image', 'a.png'], ['two-dimensional']],
+    ['a gradation of 1', ['adapt', '--case', 'iso2d', '--gradation', '1'], ['--gradation', 'above 1']],
+    ['bounds the wrong way round', ['measure', '--case', 'iso2d', '--hmin', '2', '--hmax', '1'], ['--hmin is above --hmax']],
+    ['a number of cells beyond the bounds', ['measure', '--case', 'iso2d', '--hmin', '1', '--target-cells', '1e5'], ['about 63 cells']],
     ['a metric written as .vtk', ['metric', '--case', 'iso2d', '-o', 'a.vtk'], ['.sol']],
     ['the paper’s options with the other method', ['adapt', '--case', 'iso2d', '--method', 'full', '--dice', '2'], ['--dice', '--method paper']],
     ['an unknown effort', ['adapt', '--case', 'iso2d', '--effort', 'more'], ['fast, normal, best', "'more'"]],
@@ -243,6 +250,74 @@ describe('convert', () => {
     ok('convert', data('plate_hole_v4.msh'), file('one.vtu'));
     ok('convert', data('plate_hole_v4.msh'), file('two.vtu'));
     expect(readFileSync(file('two.vtu'))).toEqual(readFileSync(file('one.vtu')));
+  });
+});
+
+describe('metrics from functions, pictures, sketches, walls and meshes', () => {
+  const measured = (...args: string[]) => JSON.parse(ok('measure', ...args, '--report', '-')) as Report;
+  const pgm = (name: string, pixel: (x: number, y: number) => number) => {
+    const n = 48;
+    const pixels = Uint8Array.from({ length: n * n }, (_, k) => 255 * pixel((k % n) / n, Math.floor(k / n) / n));
+    writeFileSync(file(name), Buffer.concat([Buffer.from(`P5\n${n} ${n}\n255\n`), pixels]));
+    return file(name);
+  };
+
+  test('the Hessian of a function, as a formula and recovered from its values', () => {
+    const of = ['--target-cells', '400', '--gradation', '2'];
+    const exact = measured('grid:10,10:0,1,0,1', '--hessian-of', 'sin(4*x)*cos(3*y) + x^2', ...of);
+    expect(exact.complexity).toBeCloseTo(400, -1);
+    ok('convert', 'grid:60,60:0,1,0,1', file('u.mesh'));
+    const values = Array.from({ length: 61 * 61 }, (_, k) => Math.sin((4 * (k % 61)) / 60) * Math.cos((3 * Math.floor(k / 61)) / 60) + ((k % 61) / 60) ** 2);
+    writeFileSync(file('u.sol'), `MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n${values.length}\n1 1\n${values.join('\n')}\nEnd\n`);
+    const found = measured('grid:10,10:0,1,0,1', '--hessian-file', file('u.sol'), '--background', file('u.mesh'), ...of);
+    expect(found.edge_length.mean / exact.edge_length.mean).toBeCloseTo(1, 1);
+  });
+
+  test('a picture makes cells; one colour and what is no picture are refused', () => {
+    const disc = pgm('disc.pgm', (x, y) => (Math.hypot(x - 0.5, y - 0.5) < 0.3 ? 1 : 0));
+    expect(measured('grid:4,4:0,1,0,1', '--metric-image', disc, '--target-cells', '1000').complexity).toBeCloseTo(1000, -1);
+    refused(3, ['measure', 'grid:4,4:0,1,0,1', '--metric-image', pgm('one.pgm', () => 0.5)], 'one.pgm', 'one colour');
+    writeFileSync(file('no.png'), 'no picture');
+    refused(3, ['measure', 'grid:4,4:0,1,0,1', '--metric-image', file('no.png')], 'no.png', 'PNG');
+  });
+
+  test('a sketch makes small cells where it says, and its mistakes are named by line', () => {
+    writeFileSync(file('s.txt'), '# x y radius size\n0.5 0.5 0.2 0.02\n0.2, 0.8, 0.1, 0.01, 45, 4\n');
+    expect(measured('grid:4,4:0,1,0,1', '--sketch', file('s.txt')).complexity).toBeGreaterThan(300);
+    writeFileSync(file('bad.txt'), '0.5 0.5 0.2 0.02\n0.5 0.5\n');
+    refused(3, ['measure', 'grid:4,4:0,1,0,1', '--sketch', file('bad.txt')], 'bad.txt, line 2', 'x y radius size');
+  });
+
+  test('layers at walls, curvature, and the metric that a mesh has', () => {
+    const layered = measured('grid:10,100:0,1,0,1', '--boundary-layer', 'ymin:0.01:1', '--hmax', '0.1');
+    expect(layered.edge_length.mean).toBeCloseTo(1, 1); // 100 rows of height 0.01
+    expect(measured('ring:36,2:1,2', '--curvature', '36').edge_length.min).toBeGreaterThan(0.75);
+    const own = measured('grid:7,3:0,1,0,2', '--metric-of', 'grid:7,3:0,1,0,2');
+    expect(own.edge_length.cv).toBeLessThan(1e-6);
+    expect(own.edge_length.mean).toBeCloseTo(1, 6);
+  });
+});
+
+describe('operations on metrics', () => {
+  test.each([
+    ['full', ['--case', 'iso2d', '--effort', 'fast']],
+    ['paper', ['--case', 'iso2d', '--method', 'paper']],
+    ['full with bounds', ['--case', 'iso2d', '--effort', 'fast', '--hmin', '0.1', '--gradation', '1.3']],
+  ])('--target-cells is met within 5 %% by method %s', (_name, args) => {
+    const report = JSON.parse(ok('adapt', ...args, '--target-cells', '500', '--report', '-')) as Report;
+    expect(report.mesh.cells).toBeGreaterThanOrEqual(475);
+    expect(report.mesh.cells).toBeLessThanOrEqual(525);
+    expect(report.valid).toBe(true);
+  });
+
+  test('a metric of a billion cells stops at --max-cells with a valid mesh and status 1', () => {
+    const done = pillowmesh('adapt', 'grid:4,4:0,1,0,1', '--metric', 'h = 0.5', '--target-cells', '1e9', '--max-cells', '20000',
+      '-o', file('most.mesh'));
+    expect(done.status).toBe(1);
+    expect(done.err).toContain('20000 cells');
+    const report = JSON.parse(ok('measure', file('most.mesh'), '--metric', 'h = 1', '--report', '-')) as Report;
+    expect(report.valid).toBe(true);
+    expect(report.mesh.cells).toBeLessThanOrEqual(20000);
   });
 });
 

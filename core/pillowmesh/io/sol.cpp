@@ -141,8 +141,8 @@ std::string write_sol(const SolFile& sol, std::string_view name) {
     std::int64_t numbers = 0;
     for (const SolField& f : sol.fields) numbers += SolField::components(f.kind, sol.dim);
     const std::int64_t dimension_end = 8 + 16;
-    const std::int64_t end = dimension_end + 20 + 4 * static_cast<std::int64_t>(sol.fields.size()) +
-                             8 * numbers * sol.vertices;
+    const std::int64_t end =
+        dimension_end + 20 + 4 * static_cast<std::int64_t>(sol.fields.size()) + 8 * numbers * sol.vertices;
     for (const std::int32_t v : {1, 3, 3}) sink.raw(v);
     sink.raw(dimension_end);
     for (const std::int32_t v : {sol.dim, kSolAtVertices}) sink.raw(v);
@@ -155,7 +155,8 @@ std::string write_sol(const SolFile& sol, std::string_view name) {
     sink.raw(std::int64_t{0});
     return sink.take();
   }
-  sink << "MeshVersionFormatted 2\n\nDimension " << sol.dim << "\n\nSolAtVertices\n" << sol.vertices << '\n'
+  sink << "MeshVersionFormatted 2\n\nDimension " << sol.dim << "\n\nSolAtVertices\n"
+       << sol.vertices << '\n'
        << sol.fields.size();
   for (const SolField& f : sol.fields) sink << ' ' << static_cast<std::int32_t>(f.kind);
   bool begun = false;
@@ -168,15 +169,39 @@ std::string write_sol(const SolFile& sol, std::string_view name) {
   return sink.take();
 }
 
-template <int Dim>
-Expected<std::vector<SymTensor<Dim>>> metric_of_sol(const SolFile& sol, std::string_view name, std::size_t vertices) {
-  const std::string file(name);
-  if (sol.dim != Dim)
+namespace {
+
+/// Whether the file can belong to a mesh.
+Status check_fits(const SolFile& sol, const std::string& file, int dim, std::size_t vertices) {
+  if (sol.dim != dim)
     return Status::bad_input(file + " is " + std::to_string(sol.dim) + "-dimensional, but the mesh is " +
-                             std::to_string(Dim) + "-dimensional");
+                             std::to_string(dim) + "-dimensional");
   if (static_cast<std::size_t>(sol.vertices) != vertices)
     return Status::bad_input(file + " has values for " + std::to_string(sol.vertices) + " vertices, but its mesh has " +
                              std::to_string(vertices) + "; give the mesh that it belongs to with --background");
+  return {};
+}
+
+}  // namespace
+
+Expected<std::vector<double>> scalar_of_sol(const SolFile& sol, std::string_view name, int dim, std::size_t vertices) {
+  const std::string file(name);
+  if (Status s = check_fits(sol, file, dim, vertices); !s.ok()) return s;
+  for (const SolField& f : sol.fields) {
+    if (f.kind != SolField::Kind::scalar) continue;
+    for (std::size_t i = 0; i < vertices; ++i)
+      if (!std::isfinite(f.values[i]))
+        return Status::bad_input(file + (sol.lines.empty() ? "" : ", line " + std::to_string(sol.lines[i])) +
+                                 ": the value of vertex " + std::to_string(i + 1) + " is not a finite number");
+    return f.values;
+  }
+  return Status::bad_input(file + " has no scalar field");
+}
+
+template <int Dim>
+Expected<std::vector<SymTensor<Dim>>> metric_of_sol(const SolFile& sol, std::string_view name, std::size_t vertices) {
+  const std::string file(name);
+  if (Status s = check_fits(sol, file, Dim, vertices); !s.ok()) return s;
   const SolField* chosen = nullptr;
   for (const SolField& f : sol.fields)
     if (f.kind == SolField::Kind::tensor && (chosen == nullptr || chosen->kind != f.kind)) chosen = &f;
@@ -187,13 +212,16 @@ Expected<std::vector<SymTensor<Dim>>> metric_of_sol(const SolFile& sol, std::str
   std::vector<SymTensor<Dim>> tensors(vertices);
   for (std::size_t i = 0; i < vertices; ++i) {
     const auto refuse = [&](const std::string& reason) {
-      return Status::bad_input(file + (sol.lines.empty() ? "" : ", line " + std::to_string(sol.lines[i])) + ": vertex " +
-                               std::to_string(i + 1) + ": " + reason);
+      return Status::bad_input(file + (sol.lines.empty() ? "" : ", line " + std::to_string(sol.lines[i])) +
+                               ": vertex " + std::to_string(i + 1) + ": " + reason);
     };
     if (chosen->kind == SolField::Kind::scalar) {
       const double h = chosen->values[i];
       if (!std::isfinite(h) || !(h > 0.0))
-        return refuse("the size " + (std::isfinite(h) ? number_text(h) : std::isnan(h) ? "nan" : "infinity") +
+        return refuse("the size " +
+                      (std::isfinite(h) ? number_text(h)
+                       : std::isnan(h)  ? "nan"
+                                        : "infinity") +
                       " is not a positive finite number");
       tensors[i] = SymTensor<Dim>::isotropic(h);
     } else {
@@ -217,8 +245,8 @@ SolFile sol_of_metric(std::span<const SymTensor<Dim>> tensors) {
   return sol;
 }
 
-#define PILLOWMESH_INSTANTIATE(D)                                                                                    \
-  template Expected<std::vector<SymTensor<D>>> metric_of_sol<D>(const SolFile&, std::string_view, std::size_t);      \
+#define PILLOWMESH_INSTANTIATE(D)                                                                               \
+  template Expected<std::vector<SymTensor<D>>> metric_of_sol<D>(const SolFile&, std::string_view, std::size_t); \
   template SolFile sol_of_metric<D>(std::span<const SymTensor<D>>);
 PILLOWMESH_INSTANTIATE(2)
 PILLOWMESH_INSTANTIATE(3)

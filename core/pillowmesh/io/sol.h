@@ -12,8 +12,8 @@
 
 namespace pillowmesh {
 
-/// One field of a file. `values` holds the components of vertex 0, then those of vertex 1, ...; tensors in Medit's order,
-/// which is SymTensor's: m11 m12 m22 [m13 m23 m33].
+/// One field of a file. `values` holds the components of vertex 0, then those of vertex 1, ...; tensors in Medit's
+/// order, which is SymTensor's: m11 m12 m22 [m13 m23 m33].
 struct SolField {
   enum class Kind : std::uint8_t { scalar = 1, vector = 2, tensor = 3 };
   Kind kind = Kind::scalar;
@@ -41,10 +41,13 @@ std::string write_sol(const SolFile& sol, std::string_view name);
 
 /// The metric that a file states, a tensor or a size per vertex: the first field that is a tensor, or else a scalar.
 /// \param vertices of the mesh that the file belongs to
-/// \return bad_input that names file, line and vertex: another dimension or number of vertices, no such field, a size that
-/// is not positive and finite, a tensor that is not positive definite.
+/// \return bad_input that names file, line and vertex: another dimension or number of vertices, no such field, a size
+/// that is not positive and finite, a tensor that is not positive definite.
 template <int Dim>
 Expected<std::vector<SymTensor<Dim>>> metric_of_sol(const SolFile& sol, std::string_view name, std::size_t vertices);
+
+/// The values of the first scalar field. \return bad_input as metric_of_sol; every value must be finite
+Expected<std::vector<double>> scalar_of_sol(const SolFile& sol, std::string_view name, int dim, std::size_t vertices);
 
 /// A file with one tensor field.
 template <int Dim>

@@ -9,18 +9,26 @@ namespace {
 #define PILLOWMESH_SIZE_ALONG_X \
   "if(x <= 2, 1 - 19*x/40, if(x <= 3.5, 20^((2*x - 7)/3), if(x <= 5, 5^((7 - 2*x)/3), 1/5 + (x - 5)^4/20)))"
 
-// The Hessian H of tanh(20 (x - sin(3 y) / 2)) at (x + A, y + B): adds W log(|H| / 0.02), its eigenvalues limited to sizes
-// from 0.003 to 0.15, to log M = a I + (b c; c -b), under the names a N, b N, c N after P.
-#define PILLOWMESH_SHOCK_AT(N, P, A, B, W) \
-  "s" N " = tanh(20*(x + " A " - 0.5*sin(3*(y + " B "))));\n" \
-  "d" N " = 1 - s" N "^2;\ne" N " = -2*s" N "*d" N ";\nv" N " = -30*cos(3*(y + " B "));\n" \
-  "q" N " = 200*e" N ";\nr" N " = 0.5*(v" N "^2*e" N " + 90*d" N "*sin(3*(y + " B ")));\n" \
-  "t" N " = 20*v" N "*e" N ";\ng" N " = sqrt((q" N " - r" N ")^2 + t" N "^2) + 1e-30;\n" \
-  "k" N " = log(min(max(50*abs(q" N " + r" N " + g" N "), 1/0.15^2), 1/0.003^2));\n" \
-  "l" N " = log(min(max(50*abs(q" N " + r" N " - g" N "), 1/0.15^2), 1/0.003^2));\n" \
-  "a" N " = " P("a") " + " W "*0.5*(k" N " + l" N ");\n" \
-  "b" N " = " P("b") " + " W "*0.5*(k" N " - l" N ")*(q" N " - r" N ")/g" N ";\n" \
-  "c" N " = " P("c") " + " W "*0.5*(k" N " - l" N ")*t" N "/g" N ";\n"
+// The Hessian H of tanh(20 (x - sin(3 y) / 2)) at (x + A, y + B): adds W log(|H| / 0.02), its eigenvalues limited to
+// sizes from 0.003 to 0.15, to log M = a I + (b c; c -b), under the names a N, b N, c N after P.
+#define PILLOWMESH_SHOCK_AT(N, P, A, B, W)                                                     \
+  "s" N " = tanh(20*(x + " A " - 0.5*sin(3*(y + " B                                            \
+  "))));\n"                                                                                    \
+  "d" N " = 1 - s" N "^2;\ne" N " = -2*s" N "*d" N ";\nv" N " = -30*cos(3*(y + " B             \
+  "));\n"                                                                                      \
+  "q" N " = 200*e" N ";\nr" N " = 0.5*(v" N "^2*e" N " + 90*d" N "*sin(3*(y + " B              \
+  ")));\n"                                                                                     \
+  "t" N " = 20*v" N "*e" N ";\ng" N " = sqrt((q" N " - r" N ")^2 + t" N                        \
+  "^2) + 1e-30;\n"                                                                             \
+  "k" N " = log(min(max(50*abs(q" N " + r" N " + g" N                                          \
+  "), 1/0.15^2), 1/0.003^2));\n"                                                               \
+  "l" N " = log(min(max(50*abs(q" N " + r" N " - g" N                                          \
+  "), 1/0.15^2), 1/0.003^2));\n"                                                               \
+  "a" N " = " P("a") " + " W "*0.5*(k" N " + l" N                                              \
+                     ");\n"                                                                    \
+                     "b" N " = " P("b") " + " W "*0.5*(k" N " - l" N ")*(q" N " - r" N ")/g" N \
+                                        ";\n"                                                  \
+                                        "c" N " = " P("c") " + " W "*0.5*(k" N " - l" N ")*t" N "/g" N ";\n"
 #define PILLOWMESH_NONE(X) "0"
 #define PILLOWMESH_AFTER_1(X) X "1"
 #define PILLOWMESH_AFTER_2(X) X "2"
@@ -52,16 +60,17 @@ constexpr Case kCases[] = {
      "UGAWG, circle-1"},
     {"shock2d", 2, "The Hessian of a sine-shaped shock, smoothed so that it can be met", "grid:10,10:-1,1,-1,1",
      PILLOWMESH_SHOCK_AT("1", PILLOWMESH_NONE, "0", "0", "0.25")
-     PILLOWMESH_SHOCK_AT("2", PILLOWMESH_AFTER_1, "0.01", "0", "0.125")
-     PILLOWMESH_SHOCK_AT("3", PILLOWMESH_AFTER_2, "-0.01", "0", "0.125")
-     PILLOWMESH_SHOCK_AT("4", PILLOWMESH_AFTER_3, "0", "0.01", "0.125")
-     PILLOWMESH_SHOCK_AT("5", PILLOWMESH_AFTER_4, "0", "-0.01", "0.125")
-     PILLOWMESH_SHOCK_AT("6", PILLOWMESH_AFTER_5, "0.01", "0.01", "0.0625")
-     PILLOWMESH_SHOCK_AT("7", PILLOWMESH_AFTER_6, "-0.01", "0.01", "0.0625")
-     PILLOWMESH_SHOCK_AT("8", PILLOWMESH_AFTER_7, "0.01", "-0.01", "0.0625")
-     PILLOWMESH_SHOCK_AT("9", PILLOWMESH_AFTER_8, "-0.01", "-0.01", "0.0625")
-     "g = sqrt(b9^2 + c9^2) + 1e-30;\nm = 0.5*(exp(a9 + g) + exp(a9 - g));\nn = 0.5*(exp(a9 + g) - exp(a9 - g))/g;\n"
-     "m11 = m + n*b9;\nm12 = n*c9;\nm22 = m - n*b9",
+         PILLOWMESH_SHOCK_AT("2", PILLOWMESH_AFTER_1, "0.01", "0", "0.125")
+             PILLOWMESH_SHOCK_AT("3", PILLOWMESH_AFTER_2, "-0.01", "0", "0.125")
+                 PILLOWMESH_SHOCK_AT("4", PILLOWMESH_AFTER_3, "0", "0.01", "0.125")
+                     PILLOWMESH_SHOCK_AT("5", PILLOWMESH_AFTER_4, "0", "-0.01", "0.125")
+                         PILLOWMESH_SHOCK_AT("6", PILLOWMESH_AFTER_5, "0.01", "0.01", "0.0625") PILLOWMESH_SHOCK_AT(
+                             "7", PILLOWMESH_AFTER_6, "-0.01", "0.01", "0.0625")
+                             PILLOWMESH_SHOCK_AT("8", PILLOWMESH_AFTER_7, "0.01", "-0.01", "0.0625")
+                                 PILLOWMESH_SHOCK_AT("9", PILLOWMESH_AFTER_8, "-0.01", "-0.01",
+                                                     "0.0625") "g = sqrt(b9^2 + c9^2) + 1e-30;\nm = 0.5*(exp(a9 + g) + "
+                                                               "exp(a9 - g));\nn = 0.5*(exp(a9 + g) - exp(a9 - g))/g;\n"
+                                                               "m11 = m + n*b9;\nm12 = n*c9;\nm22 = m - n*b9",
      "own; the metric of a shock that error estimates give"},
     {"linear3d", 3, "Cubes that grow upwards", "grid:4,4,4:0,1,0,1,0,1", "h = 0.05 + 0.15*z",
      "[Paper] Table 4, Figure 9"},
@@ -106,6 +115,16 @@ constexpr Case kCases[] = {
 }  // namespace
 
 std::span<const Case> gallery() { return kCases; }
+
+const Case& portrait_case() {
+  static constexpr Case kPortrait{"riemann",
+                                  2,
+                                  "A portrait, seen in the cells: the Hessian of an image",
+                                  "grid:16,20:0,0.8,0,1",
+                                  "",
+                                  "own image, after [Paper] Figure 11"};
+  return kPortrait;
+}
 
 const Case* find_case(std::string_view name) {
   for (const Case& c : kCases) {

@@ -17,7 +17,9 @@ struct Case {
 
 /// All cases, in the order of the documentation.
 std::span<const Case> gallery();
-/// The case of that name, or nullptr.
+/// riemann: a metric from an image, metric/portrait.h, and so without a formula; not among gallery(). [Paper] Figure 11
+const Case& portrait_case();
+/// The case of that name in the gallery, or nullptr.
 const Case* find_case(std::string_view name);
 
 }  // namespace pillowmesh
