@@ -66,6 +66,11 @@ constexpr OptionHelp kOptions[] = {
     {"dice", "N", "Method paper: refine N times coarser, then split each cell in N^dim (default 1)"},
     {"thickness", "K", "Method paper: cells across a layer at its seed (default 1)"},
     {"augment", "N", "Rings of cells added at the ends of a layer, or auto (default): 1 in 2D, 0 in 3D"},
+    {"geometry", "linear|smooth",
+     "New boundary vertices on the input's edges and facets (default), or on smooth curves and surfaces through its "
+     "boundary vertices, on circles where those are"},
+    {"corner-angle", "DEGREES",
+     "The boundary of a file has a corner (2D) or a feature edge (3D) where it turns by more (default 40)"},
     {"max-cells", "N", "Stop with a valid mesh before it has more cells (default 10000000)"},
     {"max-iterations", "N", "Iterations at the most (default 30)"},
     {"max-sweeps", "N", "Sweeps of the smoother at the most, each time it runs (default 200)"},

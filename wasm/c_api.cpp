@@ -85,10 +85,10 @@ Status check_cells(std::span<const Corners<Dim>> cells, std::uint32_t point_coun
 }
 
 template <int Dim>
-Expected<AnyMesh> mesh_from_bytes(std::string_view name, std::span<const char> bytes) {
+Expected<AnyMesh> mesh_from_bytes(std::string_view name, std::span<const char> bytes, const BoundaryOptions& options) {
   auto input = from_bytes<Dim>(bytes);
   if (!input) return input.status();
-  return make_any_mesh(std::move(*input), name);
+  return make_any_mesh(std::move(*input), name, options);
 }
 
 void append_quoted(std::string_view text, std::string& json) {
@@ -200,9 +200,9 @@ pm_status pm_load_input(pm_session* session, const char* name, uint32_t name_siz
   const std::string_view file(name, name_size);
   switch (dimension_of({bytes, size})) {
     case 2:
-      return session->load(mesh_from_bytes<2>(file, {bytes, size}));
+      return session->load(mesh_from_bytes<2>(file, {bytes, size}, session->options.boundary));
     case 3:
-      return session->load(mesh_from_bytes<3>(file, {bytes, size}));
+      return session->load(mesh_from_bytes<3>(file, {bytes, size}, session->options.boundary));
     default:
       return session->finish(Status::usage("These are not the bytes of a mesh."));
   }

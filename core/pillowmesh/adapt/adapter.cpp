@@ -10,6 +10,7 @@
 #include "pillowmesh/adapt/schedule.h"
 #include "pillowmesh/adapt/tagging.h"
 #include "pillowmesh/mesh/jacobian.h"
+#include "pillowmesh/mesh/smooth_geometry.h"
 #include "pillowmesh/metric/length.h"
 #include "pillowmesh/refine/balance.h"
 #include "pillowmesh/refine/dice.h"
@@ -84,6 +85,7 @@ struct Adapter<Dim>::State {
         augment(options.augment >= 0 ? options.augment : (Dim == 2 ? 1 : 0)),
         tagging(mesh, options.threshold),
         recorder(options.record) {
+    if (options.geometry == BoundaryShape::smooth) mesh.geometry = smooth_geometry(std::move(mesh.geometry));
     outcome = field.check(mesh.points);
     if (!outcome.ok()) stage = Stage::done;
     if constexpr (Dim == 3) {  // no layer may leave a worse cell than the input has, nor a bad one
