@@ -133,6 +133,13 @@ int run(int argc, char** argv) {
   add_problem(*adapt_app, adapt_flags.problem);
   for (const OptionHelp& o : kOptions)
     adapt_app->add_option(std::string("--") + o.name, given[o.name], o.text)->type_name(o.type);
+  std::vector<std::string> freeze;
+  adapt_app
+      ->add_option("--freeze", freeze,
+                   "Keep a group (of cells, boundary facets, edges or points) as it is; may be repeated. So are the "
+                   "required entities of a Medit file")
+      ->type_name("GROUP")
+      ->allow_extra_args(false);
   adapt_app->add_option("-o,--output", adapt_flags.output, "Adapted mesh; its ending chooses the format")
       ->type_name("OUT");
   add_write(*adapt_app, adapt_flags.write, adapt_gmsh);
@@ -196,6 +203,8 @@ int run(int argc, char** argv) {
   for (const OptionHelp& o : kOptions)
     if (adapt_app->count(std::string("--") + o.name) > 0)
       if (Status s = set_option(adapt_flags.options, o.name, given[o.name]); !s.ok()) return fail(s);
+  for (const std::string& group : freeze)
+    if (Status s = set_option(adapt_flags.options, "freeze", group); !s.ok()) return fail(s);
   if (Status s = choose_method(given, adapt_flags.options); !s.ok()) return fail(s);
   if (Status s = set_gmsh_version(adapt_flags.write, adapt_gmsh); !s.ok()) return fail(s);
   if (Status s = set_gmsh_version(convert_flags.write, convert_gmsh); !s.ok()) return fail(s);

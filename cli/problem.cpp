@@ -61,7 +61,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
 }
 
 Expected<AnyMesh> load_mesh(const std::string& input, const BoundaryOptions& options) {
-  return is_primitive(input) ? parse_primitive(input) : read_mesh_file(input, options);
+  return is_primitive(input) ? parse_primitive(input, options.freeze) : read_mesh_file(input, options);
 }
 
 Expected<AnyMesh> problem_mesh(const ProblemFlags& flags, const BoundaryOptions& options) {
@@ -75,7 +75,7 @@ Expected<AnyMesh> problem_mesh(const ProblemFlags& flags, const BoundaryOptions&
   if (!flags.case_name.empty()) {
     auto c = named_case(flags.case_name);
     if (!c) return c.status();
-    if (flags.input.empty()) return parse_primitive((*c)->mesh);
+    if (flags.input.empty()) return parse_primitive((*c)->mesh, options.freeze);
   }
   if (flags.input.empty()) return Status::usage("a mesh is missing: give a file, grid:... or --case NAME");
   return load_mesh(flags.input, options);

@@ -209,14 +209,14 @@ pm_status pm_load_input(pm_session* session, const char* name, uint32_t name_siz
 }
 
 pm_status pm_load_grid(pm_session* session, const char* spec, uint32_t size) {
-  return session->load(parse_primitive({spec, size}));
+  return session->load(parse_primitive({spec, size}, session->options.boundary.freeze));
 }
 
 pm_status pm_load_case(pm_session* session, const char* name, uint32_t size) {
   const Case* found = find_case({name, size});
   if (found == nullptr)
     return session->finish(Status::usage("There is no case named \"" + std::string(name, size) + "\"."));
-  const pm_status status = session->load(parse_primitive(found->mesh));
+  const pm_status status = session->load(parse_primitive(found->mesh, session->options.boundary.freeze));
   if (status != PM_OK) return status;
   return pm_set_metric(session, found->formula.data(), static_cast<uint32_t>(found->formula.size()), 1.0);
 }

@@ -57,6 +57,13 @@ Status set_option(AdaptOptions& options, std::string_view name, std::string_view
     options.boundary.corner_cosine = portable::cos(degrees * 0.017453292519943295);
     return {};
   }
+  if (name == "freeze") {
+    if (value.empty())
+      options.boundary.freeze.clear();
+    else
+      options.boundary.freeze.emplace_back(value);
+    return {};
+  }
   if (name == "geometry") {
     if (value == "linear") return options.geometry = BoundaryShape::linear, Status{};
     if (value == "smooth") return options.geometry = BoundaryShape::smooth, Status{};
