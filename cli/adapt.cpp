@@ -153,7 +153,7 @@ int adapt(const AdaptFlags& flags) {
   if (Status s = check_not_input(flags.report, flags.problem.input); !s.ok()) return fail(s);
   catch_interrupts();
   Clock clock;
-  auto mesh = problem_mesh(flags.problem);
+  auto mesh = problem_mesh(flags.problem, flags.options.boundary);
   if (!mesh) return fail(mesh.status());
   const double read_seconds = clock.lap();
   return std::visit([&](auto& m) { return adapt_mesh(std::move(m), flags, read_seconds); }, *mesh);

@@ -113,6 +113,11 @@ constexpr OptionHelp kOptions[] = {
      "Method paper: approach the metric in N steps, from a floor on sizes that is halved; 0: at once; auto (default): "
      "7 where sizes change fast in 3D"},
     {"augment", "N", "Rings of cells added at the ends of a layer, or auto (default): 1 in 2D, 0 in 3D"},
+    {"geometry", "linear|smooth",
+     "New boundary vertices on the input's edges and facets (default), or on smooth curves and surfaces through its "
+     "boundary vertices, on circles where those are"},
+    {"corner-angle", "DEGREES",
+     "The boundary of a file has a corner (2D) or a feature edge (3D) where it turns by more (default 40)"},
     {"max-cells", "N", "Stop with a valid mesh before it has more cells (default 10000000)"},
     {"max-iterations", "N", "Iterations at the most (default 30)"},
     {"max-sweeps", "N", "Sweeps of the smoother at the most, each time it runs (default 200)"},
@@ -175,6 +180,13 @@ int run(int argc, char** argv) {
   add_problem(*adapt_app, adapt_flags.problem, given);
   for (const OptionHelp& o : kOptions)
     adapt_app->add_option(std::string("--") + o.name, given[o.name], o.text)->type_name(o.type);
+  std::vector<std::string> freeze;
+  adapt_app
+      ->add_option("--freeze", freeze,
+                   "Keep a group (of cells, boundary facets, edges or points) as it is; may be repeated. So are the "
+                   "required entities of a Medit file")
+      ->type_name("GROUP")
+      ->allow_extra_args(false);
   adapt_app->add_option("-o,--output", adapt_flags.output, "Adapted mesh; its ending chooses the format")
       ->type_name("OUT");
   add_write(*adapt_app, adapt_flags.write, adapt_gmsh);
@@ -244,6 +256,8 @@ int run(int argc, char** argv) {
   if (Status s = set_operations(*adapt_app, given, adapt_flags.problem); !s.ok()) return fail(s);
   if (Status s = set_operations(*measure_app, measure_given, measure_flags.problem); !s.ok()) return fail(s);
   if (Status s = set_operations(*metric_app, metric_given, metric_flags.problem); !s.ok()) return fail(s);
+  for (const std::string& group : freeze)
+    if (Status s = set_option(adapt_flags.options, "freeze", group); !s.ok()) return fail(s);
   if (Status s = choose_method(given, adapt_flags.options); !s.ok()) return fail(s);
   if (Status s = set_gmsh_version(adapt_flags.write, adapt_gmsh); !s.ok()) return fail(s);
   if (Status s = set_gmsh_version(convert_flags.write, convert_gmsh); !s.ok()) return fail(s);

@@ -78,11 +78,11 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   return best;
 }
 
-Expected<AnyMesh> load_mesh(const std::string& input) {
-  return is_primitive(input) ? parse_primitive(input) : read_mesh_file(input);
+Expected<AnyMesh> load_mesh(const std::string& input, const BoundaryOptions& options) {
+  return is_primitive(input) ? parse_primitive(input, options.freeze) : read_mesh_file(input, options);
 }
 
-Expected<AnyMesh> problem_mesh(const ProblemFlags& flags) {
+Expected<AnyMesh> problem_mesh(const ProblemFlags& flags, const BoundaryOptions& options) {
   if (!(flags.size_scale > 0.0 && flags.size_scale < 1e300))
     return Status::usage("--size-scale takes a number above 0");
   if (!flags.metric.empty() && !flags.case_name.empty()) return Status::usage("--metric and --case exclude each other");
@@ -95,10 +95,10 @@ Expected<AnyMesh> problem_mesh(const ProblemFlags& flags) {
   if (!flags.case_name.empty()) {
     auto c = named_case(flags.case_name);
     if (!c) return c.status();
-    if (flags.input.empty()) return parse_primitive((*c)->mesh);
+    if (flags.input.empty()) return parse_primitive((*c)->mesh, options.freeze);
   }
   if (flags.input.empty()) return Status::usage("a mesh is missing: give a file, grid:... or --case NAME");
-  return load_mesh(flags.input);
+  return load_mesh(flags.input, options);
 }
 
 Status check_not_input(const std::string& output, const std::string& input) {

@@ -14,11 +14,11 @@ namespace pillowmesh::cli {
 /// usage that lists the cases when there is none of that name.
 Expected<const Case*> named_case(const std::string& name);
 
-/// A mesh file or a primitive, `grid:...`.
-Expected<AnyMesh> load_mesh(const std::string& input);
+/// A mesh file or a primitive, `grid:...`; the options are for files.
+Expected<AnyMesh> load_mesh(const std::string& input, const BoundaryOptions& options = {});
 
 /// The mesh that the flags name.
-Expected<AnyMesh> problem_mesh(const ProblemFlags& flags);
+Expected<AnyMesh> problem_mesh(const ProblemFlags& flags, const BoundaryOptions& options = {});
 
 /// The metric that the flags name for `mesh`, the one that problem_mesh gave; its sizes scaled. Checks that it fits the
 /// mesh's dimension and is positive definite at the mesh's vertices.

@@ -85,10 +85,10 @@ Status check_cells(std::span<const Corners<Dim>> cells, std::uint32_t point_coun
 }
 
 template <int Dim>
-Expected<AnyMesh> mesh_from_bytes(std::string_view name, std::span<const char> bytes) {
+Expected<AnyMesh> mesh_from_bytes(std::string_view name, std::span<const char> bytes, const BoundaryOptions& options) {
   auto input = from_bytes<Dim>(bytes);
   if (!input) return input.status();
-  return make_any_mesh(std::move(*input), name);
+  return make_any_mesh(std::move(*input), name, options);
 }
 
 void append_quoted(std::string_view text, std::string& json) {
@@ -200,23 +200,23 @@ pm_status pm_load_input(pm_session* session, const char* name, uint32_t name_siz
   const std::string_view file(name, name_size);
   switch (dimension_of({bytes, size})) {
     case 2:
-      return session->load(mesh_from_bytes<2>(file, {bytes, size}));
+      return session->load(mesh_from_bytes<2>(file, {bytes, size}, session->options.boundary));
     case 3:
-      return session->load(mesh_from_bytes<3>(file, {bytes, size}));
+      return session->load(mesh_from_bytes<3>(file, {bytes, size}, session->options.boundary));
     default:
       return session->finish(Status::usage("These are not the bytes of a mesh."));
   }
 }
 
 pm_status pm_load_grid(pm_session* session, const char* spec, uint32_t size) {
-  return session->load(parse_primitive({spec, size}));
+  return session->load(parse_primitive({spec, size}, session->options.boundary.freeze));
 }
 
 pm_status pm_load_case(pm_session* session, const char* name, uint32_t size) {
   const Case* found = find_case({name, size});
   if (found == nullptr)
     return session->finish(Status::usage("There is no case named \"" + std::string(name, size) + "\"."));
-  const pm_status status = session->load(parse_primitive(found->mesh));
+  const pm_status status = session->load(parse_primitive(found->mesh, session->options.boundary.freeze));
   if (status != PM_OK) return status;
   return pm_set_metric(session, found->formula.data(), static_cast<uint32_t>(found->formula.size()), 1.0);
 }

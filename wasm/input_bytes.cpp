@@ -75,6 +75,12 @@ void each_array(Input& input, Visitor& visit) {
   visit(input.facet_groups);
   visit(input.corners);
   visit(input.ridges);
+  visit(input.required_vertices);
+  visit(input.required_edges);
+  visit(input.required_facets);
+  visit(input.required_cells);
+  visit(input.marks);
+  visit(input.mark_groups);
   visit(input.cell_lines);
 }
 

@@ -30,6 +30,12 @@ TEST_CASE("each option is set by its command-line name") {
   CHECK(set_option(options, "effort", "best").ok());
   CHECK(set_option(options, "align", "0.25").ok());
   CHECK(set_option(options, "seed", "17").ok());
+  CHECK(set_option(options, "geometry", "smooth").ok());
+  CHECK(set_option(options, "corner-angle", "60").ok());
+  CHECK(options.geometry == BoundaryShape::smooth);
+  CHECK(options.boundary.corner_cosine == Approx(0.5));
+  CHECK(set_option(options, "geometry", "linear").ok());
+  CHECK(options.geometry == BoundaryShape::linear);
   CHECK(options.method == Method::paper);
   CHECK(options.effort == Effort::best);
   CHECK(options.align == 0.25);
@@ -55,7 +61,8 @@ TEST_CASE("a wrong value is refused with the option, what is allowed and what wa
       {"threshold", "1"},  {"threshold", "two"}, {"threshold", ""},   {"threshold", "nan"}, {"threshold", "2x"},
       {"dice", "0"},       {"dice", "1.5"},      {"dice", "17"},      {"thickness", "0"},   {"augment", "-1"},
       {"max-cells", "0"},  {"max-cells", "many"}, {"max-sweeps", "-1"}, {"smooth", "always"}, {"max-iterations", "0"},
-      {"method", "both"},  {"effort", "more"},   {"align", "1.5"},    {"seed", "-1"}};
+      {"method", "both"},  {"effort", "more"},   {"align", "1.5"},    {"seed", "-1"},
+      {"geometry", "round"}, {"corner-angle", "0"}, {"corner-angle", "200"}};
   for (const auto& [name, value] : wrong) {
     AdaptOptions options;
     const Status s = set_option(options, name, value);

@@ -11,7 +11,9 @@
 #include "pillowmesh/adapt/recorder.h"
 #include "pillowmesh/adapt/schedule.h"
 #include "pillowmesh/adapt/tagging.h"
+#include "pillowmesh/mesh/frozen.h"
 #include "pillowmesh/mesh/jacobian.h"
+#include "pillowmesh/mesh/smooth_geometry.h"
 #include "pillowmesh/metric/length.h"
 #include "pillowmesh/refine/balance.h"
 #include "pillowmesh/refine/dice.h"
@@ -89,8 +91,11 @@ struct Adapter<Dim>::State {
         augment(options.augment >= 0 ? options.augment : (Dim == 2 ? 1 : 0)),
         tagging(mesh, options.threshold),
         recorder(options.record) {
+    if (options.geometry == BoundaryShape::smooth) mesh.geometry = smooth_geometry(std::move(mesh.geometry));
     outcome = field.check(mesh.points);
     target = aim();
+    if (outcome.ok() && mesh.frozen && options.dice > 1)
+      outcome = Status::usage("dicing would split what is frozen; leave out one of them");
     if (!outcome.ok()) stage = Stage::done;
     if constexpr (Dim == 3) {  // no layer may leave a worse cell than the input has, nor a bad one
       pillow.quality_floor = 0.02;
@@ -115,6 +120,7 @@ struct Adapter<Dim>::State {
       case Stage::improve: improve(); break;
       case Stage::done: break;
     }
+    if (stage == Stage::done && outcome.ok()) outcome = look_at_frozen();
     return stage != Stage::done;
   }
 
@@ -137,6 +143,7 @@ struct Adapter<Dim>::State {
     const Stopwatch watch(refine_seconds);
     report_progress("finding long edges");
     seeds = tagging.tag_long_edges(mesh, target, tags);
+    drop_frozen_tags();
     if (smoothed && seeds.empty()) {
       stage = Stage::done;
       report_progress("done");
@@ -165,6 +172,7 @@ struct Adapter<Dim>::State {
     smoothed = false;
     balance_tags<Dim>(mesh, tags, seeds);
     tagging.collect_tagged_cells(mesh, tags, seeds);
+    drop_frozen_tags();
     recorder.tags(mesh, tags, iteration, options.record ? longest_edge() : 0.0);
     next_seed = 0;
     first_new = mesh.cell_count();
@@ -244,11 +252,36 @@ struct Adapter<Dim>::State {
     }
   }
 
-  double longest_edge() const {
-    const auto edges = unique_edges(mesh);
+  /// Frozen edges cannot be refined.
+  void drop_frozen_tags() {
+    if (!mesh.frozen) return;
+    for (const CellId c : seeds)
+      for (int e = 0; e < Cell<Dim>::edges; ++e)
+        if (tags.has(c, e) && is_frozen_edge(mesh, {c, e})) clear_tag(mesh, tags, {c, e});
+    std::erase_if(seeds, [&](CellId c) { return tags.mask[c] == 0; });
+  }
+
+  /// limit_not_met when frozen edges are too long.
+  Status look_at_frozen() const {
+    if (!mesh.frozen || mesh.frozen->edges.empty()) return {};
+    const auto lengths = lengths_of(mesh.frozen->edges);
+    const auto count = std::count_if(lengths.begin(), lengths.end(), [&](double l) { return l > options.threshold * 1.001; });
+    if (count == 0) return {};
+    return Status::limit_not_met(std::to_string(count) + (count == 1 ? " edge is" : " edges are") +
+                                 " longer than the threshold, but frozen");
+  }
+
+  std::vector<double> lengths_of(std::span<const std::array<VertexId, 2>> edges) const {
     std::vector<double> lengths(edges.size());
     edge_lengths<Dim>(target, mesh.points, edges, lengths, {1e-3, 0.0, 6});
-    return *std::max_element(lengths.begin(), lengths.end());
+    return lengths;
+  }
+
+  double longest_edge() const {
+    auto edges = unique_edges(mesh);
+    if (mesh.frozen) std::erase_if(edges, [&](const auto& e) { return is_frozen_edge(mesh, e[0], e[1]); });
+    const auto lengths = lengths_of(edges);
+    return lengths.empty() ? 0.0 : *std::max_element(lengths.begin(), lengths.end());
   }
 
   void begin_smoothing() {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "pillowmesh/mesh/number.h"
+#include "pillowmesh/mesh/portable_math.h"
 
 namespace pillowmesh {
 namespace {
@@ -51,6 +52,24 @@ Status set_option(AdaptOptions& options, std::string_view name, std::string_view
     if (value == "full") return options.method = Method::full, Status{};
     if (value == "paper") return options.method = Method::paper, Status{};
     return Status::usage("--method is one of auto, full, paper, not '" + std::string(value) + "'");
+  }
+  if (name == "corner-angle") {
+    double degrees = 0.0;
+    if (Status s = read_real(name, value, 0.0, 180.0, "of degrees above 0 and up to 180", degrees); !s.ok()) return s;
+    options.boundary.corner_cosine = portable::cos(degrees * 0.017453292519943295);
+    return {};
+  }
+  if (name == "freeze") {
+    if (value.empty())
+      options.boundary.freeze.clear();
+    else
+      options.boundary.freeze.emplace_back(value);
+    return {};
+  }
+  if (name == "geometry") {
+    if (value == "linear") return options.geometry = BoundaryShape::linear, Status{};
+    if (value == "smooth") return options.geometry = BoundaryShape::smooth, Status{};
+    return Status::usage("--geometry is one of linear, smooth, not '" + std::string(value) + "'");
   }
   if (name == "effort") {
     if (value == "fast") return options.effort = Effort::fast, Status{};

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string_view>
 
+#include "pillowmesh/mesh/boundary.h"
 #include "pillowmesh/mesh/status.h"
 
 namespace pillowmesh {
@@ -26,6 +27,12 @@ enum class Method : std::uint8_t {
 /// How long full adaptation searches.
 enum class Effort : std::uint8_t { fast, normal, best };
 
+/// What the boundary is between the vertices that the input has there.
+enum class BoundaryShape : std::uint8_t {
+  linear,  ///< the straight edges and bilinear facets of the input
+  smooth,  ///< curves and surfaces through its vertices (mesh/smooth_geometry.h)
+};
+
 struct AdaptOptions {
   Method method = Method::automatic;
   /// Full adaptation: fast is for pages that follow a moving metric, best for meshes that are kept.
@@ -34,6 +41,10 @@ struct AdaptOptions {
   double align = 1.0;
   /// Full adaptation: of its random numbers. The same seed gives the same mesh everywhere.
   std::uint64_t seed = 1;
+  /// How the boundary of a mesh is divided when it is read: before the run (read_mesh_file, make_mesh).
+  BoundaryOptions boundary;
+  /// Where new boundary vertices lie.
+  BoundaryShape geometry = BoundaryShape::linear;
   /// Metric length above which an edge is tagged. [Paper] section 4 step 1: about 2.
   double threshold = 2.0;
   Smoothing smoothing = Smoothing::end;

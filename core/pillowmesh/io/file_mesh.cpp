@@ -140,10 +140,38 @@ void release(std::vector<T>& v) {
   std::vector<T>().swap(v);
 }
 
+/// Points, and in 3D lines, that carry a physical group.
+template <int Dim>
+void mark_groups(const FileMesh& file, MeshInput<Dim>& input) {
+  const auto add = [&](const std::vector<Index>& tags, int dim, auto&& ends_of) {
+    Groups groups(tags, file.names, dim, false);
+    const Index first = static_cast<Index>(input.mark_groups.size());
+    for (std::size_t i = 0; i < tags.size(); ++i)
+      if (tags[i] != 0) input.marks.push_back({ends_of(i), first + groups.index_of(tags[i])});
+    input.mark_groups.insert(input.mark_groups.end(), groups.groups.begin(), groups.groups.end());
+  };
+  add(file.corner_tags, 0, [&](std::size_t i) { return std::array<VertexId, 2>{file.corners[i], file.corners[i]}; });
+  if (Dim == 3) add(file.lines.tag, 1, [&](std::size_t i) { return file.lines.vertices[i]; });
+}
+
+template <int Dim>
+void require(const FileMesh& file, MeshInput<Dim>& input) {
+  input.required_vertices = file.required_vertices;
+  if constexpr (Dim == 2) {
+    for (const Index i : file.required_lines) input.required_facets.push_back(file.lines.vertices[i]);
+    input.required_cells = file.required_quads;
+  } else {
+    for (const Index i : file.required_lines) input.required_edges.push_back(file.lines.vertices[i]);
+    for (const Index i : file.required_quads) input.required_facets.push_back(file_order(file.quads.vertices[i]));
+  }
+}
+
 template <int Dim>
 MeshInput<Dim> to_mesh_input(FileMesh& file, Elements<Cell<Dim>::corners>& cells,
                              Elements<Cell<Dim>::facet_corners>& facets) {
   MeshInput<Dim> input;
+  mark_groups(file, input);
+  require(file, input);
   if constexpr (Dim == 3) {
     input.points = std::move(file.points);
   } else {
@@ -200,6 +228,16 @@ Expected<AnyInput> finish(FileMesh file, std::string_view name) {
     if (r < 0 || r >= line_count)
       return Status::bad_input(place(name, 0) + "ridge " + std::to_string(std::int64_t{r} + 1) +
                                " names an edge that does not exist");
+  const auto check_list = [&](const std::vector<Index>& list, std::size_t count, const char* what) -> Status {
+    for (const Index i : list)
+      if (i < 0 || i >= static_cast<Index>(count))
+        return Status::bad_input(place(name, 0) + "required " + what + " " + std::to_string(std::int64_t{i} + 1) +
+                                 " does not exist");
+    return {};
+  };
+  if (Status s = check_list(file.required_vertices, file.points.size(), "vertex"); !s.ok()) return s;
+  if (Status s = check_list(file.required_lines, file.lines.vertices.size(), "edge"); !s.ok()) return s;
+  if (Status s = check_list(file.required_quads, file.quads.vertices.size(), "quad"); !s.ok()) return s;
   if (!file.hexes.vertices.empty()) return AnyInput(to_mesh_input<3>(file, file.hexes, file.quads));
   if (Status s = check_planar(file, name); !s.ok()) return s;
   return AnyInput(to_mesh_input<2>(file, file.quads, file.lines));

@@ -46,8 +46,11 @@ struct FileMesh {
   /// Kept for backgrounds of metrics (io/background_file.h) and counted in `foreign` too.
   std::vector<std::array<Index, 3>> triangles;
   std::vector<std::array<Index, 4>> tetrahedra;
-  std::vector<Index> corners;  ///< vertices pinned by the file
-  std::vector<Index> ridges;   ///< indices into `lines`
+  std::vector<Index> corners;      ///< vertices pinned by the file
+  std::vector<Index> corner_tags;  ///< their physical groups; empty: none
+  std::vector<Index> ridges;       ///< indices into `lines`
+  /// What the file wants kept: vertices, and indices into `lines`, `quads`.
+  std::vector<Index> required_vertices, required_lines, required_quads;
   struct Name {
     int dim;
     Index tag;

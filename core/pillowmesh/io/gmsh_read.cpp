@@ -263,7 +263,9 @@ class GmshReader {
     }
     switch (type.code) {
       case 15:
-        if (physical != 0) mesh_.corners.push_back(v[0]);
+        if (physical == 0) break;
+        mesh_.corners.push_back(v[0]);
+        mesh_.corner_tags.push_back(physical);
         break;
       case 1:
         if (physical != 0) mesh_.ridges.push_back(static_cast<Index>(mesh_.lines.vertices.size()));

@@ -80,10 +80,10 @@ Expected<AnyInput> read_input(std::string_view name, std::span<const char> bytes
   return finish(std::move(*mesh), name);
 }
 
-Expected<AnyMesh> read_mesh(std::string_view name, std::span<const char> bytes) {
+Expected<AnyMesh> read_mesh(std::string_view name, std::span<const char> bytes, const BoundaryOptions& options) {
   auto input = read_input(name, bytes);
   if (!input) return input.status();
-  return std::visit([&](auto& i) { return make_any_mesh(std::move(i), name); }, *input);
+  return std::visit([&](auto& i) { return make_any_mesh(std::move(i), name, options); }, *input);
 }
 
 Status check_writable(std::string_view name, const WriteOptions& options) {

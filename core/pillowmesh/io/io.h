@@ -20,7 +20,7 @@ class Sink;  // io/sink.h
 /// group, gmsh:physical, medit:ref, CellEntityIds, region or patch (VTK).
 /// \return bad_input: one sentence with file, line or cell, and reason. Memory: a multiple of the size of the file,
 /// whatever its header promises.
-Expected<AnyMesh> read_mesh(std::string_view name, std::span<const char> bytes);
+Expected<AnyMesh> read_mesh(std::string_view name, std::span<const char> bytes, const BoundaryOptions& options = {});
 
 /// Both, whatever the dimensions of this build: files are read and written without knowing what becomes of the mesh.
 using AnyInput = std::variant<MeshInput<2>, MeshInput<3>>;
@@ -31,7 +31,7 @@ Expected<AnyInput> read_input(std::string_view name, std::span<const char> bytes
 Expected<std::vector<char>> read_file(const std::string& path);
 
 /// Reads a mesh from a file.
-Expected<AnyMesh> read_mesh_file(const std::string& path);
+Expected<AnyMesh> read_mesh_file(const std::string& path, const BoundaryOptions& options = {});
 
 struct WriteOptions {
   /// .meshb is always binary, .mesh never; the others are either.

@@ -62,11 +62,11 @@ Expected<std::vector<char>> read_file(const std::string& path) {
   return bytes;
 }
 
-Expected<AnyMesh> read_mesh_file(const std::string& path) {
+Expected<AnyMesh> read_mesh_file(const std::string& path, const BoundaryOptions& options) {
   if (Status s = check_writable(path); !s.ok()) return Status::bad_input(s.message);  // unknown ending
   auto bytes = read_file(path);
   if (!bytes) return bytes.status();
-  return read_mesh(path, *bytes);
+  return read_mesh(path, *bytes, options);
 }
 
 template <int Dim>

@@ -9,8 +9,8 @@
 
 namespace pillowmesh {
 
-/// Vertices, Edges, Quadrilaterals, Hexahedra with their references (0: none); Corners and RequiredVertices pin
-/// vertices, Ridges name feature edges. Other keywords are skipped. A failure is left in `source`.
+/// Vertices, Edges, Quadrilaterals, Hexahedra with their references (0: none); Corners pin vertices,
+/// RequiredVertices, RequiredEdges and RequiredQuadrilaterals freeze, Ridges name feature edges. Other keywords are skipped. A failure is left in `source`.
 FileMesh read_medit_ascii(Source& source);
 /// Versions 1 to 4, either byte order.
 FileMesh read_medit_binary(Source& source);

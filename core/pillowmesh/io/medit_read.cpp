@@ -15,7 +15,7 @@ struct Section {
   int vertices;  ///< of an element; 0: not an element section
   bool foreign;
 };
-constexpr std::array<Section, 19> kSections{{
+constexpr std::array<Section, 21> kSections{{
     {"Vertices", 4, "vertices", 0, false},
     {"Edges", 5, "edges", 2, false},
     {"Triangles", 6, "triangles", 3, true},
@@ -26,6 +26,8 @@ constexpr std::array<Section, 19> kSections{{
     {"Corners", 13, "corners", 0, false},
     {"Ridges", 14, "ridges", 0, false},
     {"RequiredVertices", 15, "required vertices", 0, false},
+    {"RequiredEdges", 16, "required edges", 0, false},
+    {"RequiredQuadrilaterals", 18, "required quads", 0, false},
     {"Pyramids", 49, "pyramids", 5, true},
     {"Pentahedra", 9, "prisms", 6, true},
     {"Wedges", 9, "prisms", 6, true},
@@ -46,8 +48,14 @@ class SectionReader {
   void read(const Section& s) {
     if (s.code == 4) {
       read_vertices();
-    } else if (s.code == 13 || s.code == 15) {
+    } else if (s.code == 13) {
       read_list(mesh_.corners, s, "a vertex number");
+    } else if (s.code == 15) {
+      read_list(mesh_.required_vertices, s, "a vertex number");
+    } else if (s.code == 16) {
+      read_list(mesh_.required_lines, s, "an edge number");
+    } else if (s.code == 18) {
+      read_list(mesh_.required_quads, s, "a quad number");
     } else if (s.code == 14) {
       read_list(mesh_.ridges, s, "an edge number");
     } else if (s.foreign) {

@@ -1,5 +1,8 @@
 #include "pillowmesh/io/medit.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace pillowmesh {
 namespace {
 
@@ -12,6 +15,9 @@ enum Keyword : std::int32_t {
   kHexahedra = 10,
   kCorners = 13,
   kRidges = 14,
+  kRequiredVertices = 15,
+  kRequiredEdges = 16,
+  kRequiredQuadrilaterals = 18,
   kEnd = 54
 };
 
@@ -80,6 +86,27 @@ class SectionWriter {
   std::int64_t position_ = 0;
 };
 
+/// Where the required facets are in the list of facets.
+template <int Dim>
+std::vector<Index> places_of_required_facets(const MeshInput<Dim>& mesh) {
+  std::vector<std::pair<FacetCorners<Dim>, Index>> known;
+  std::vector<Index> places;
+  if (mesh.required_facets.empty()) return places;
+  const auto key = [](FacetCorners<Dim> v) {
+    std::sort(v.begin(), v.end());
+    return v;
+  };
+  for (std::size_t i = 0; i < mesh.facets.size(); ++i) known.push_back({key(mesh.facets[i].vertices), static_cast<Index>(i)});
+  std::sort(known.begin(), known.end());
+  for (const auto& facet : mesh.required_facets) {
+    const auto wanted = key(facet);
+    const auto at = std::lower_bound(known.begin(), known.end(), std::pair(wanted, Index{0}));
+    if (at != known.end() && at->first == wanted) places.push_back(at->second);
+  }
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -93,15 +120,21 @@ void write_medit(const MeshInput<Dim>& mesh, Sink& sink, bool binary) {
   }
   const std::vector<Index> facet_tags = distinct_tags(mesh.facet_groups);
   const std::vector<Index> region_tags = distinct_tags(mesh.region_groups);
-  if (Dim == 3 && !mesh.ridges.empty()) {
-    out.begin(kEdges, "Edges", mesh.ridges.size(), 12);
-    for (const auto& ridge : mesh.ridges) {
-      out.integer(ridge[0] + 1);
-      out.integer(ridge[1] + 1);
-      out.last(0);
-    }
-    out.begin(kRidges, "Ridges", mesh.ridges.size(), 4);
-    for (std::size_t i = 0; i < mesh.ridges.size(); ++i) out.last(static_cast<Index>(i) + 1);
+  const auto number = [&](Keyword keyword, const char* name, std::size_t first, std::size_t count) {
+    if (count == 0) return;
+    out.begin(keyword, name, count, 4);
+    for (std::size_t i = 0; i < count; ++i) out.last(static_cast<Index>(first + i) + 1);
+  };
+  if (Dim == 3 && mesh.ridges.size() + mesh.required_edges.size() > 0) {
+    out.begin(kEdges, "Edges", mesh.ridges.size() + mesh.required_edges.size(), 12);
+    for (const auto* list : {&mesh.ridges, &mesh.required_edges})
+      for (const auto& edge : *list) {
+        out.integer(edge[0] + 1);
+        out.integer(edge[1] + 1);
+        out.last(0);
+      }
+    number(kRidges, "Ridges", 0, mesh.ridges.size());
+    number(kRequiredEdges, "RequiredEdges", mesh.ridges.size(), mesh.required_edges.size());
   }
   if (!mesh.facets.empty()) {
     constexpr int n = Cell<Dim>::facet_corners;
@@ -118,10 +151,16 @@ void write_medit(const MeshInput<Dim>& mesh, Sink& sink, bool binary) {
     for (Index v : file_order(mesh.cells[c])) out.integer(v + 1);
     out.last(region_tags.empty() || mesh.cell_region.empty() ? 0 : region_tags[mesh.cell_region[c]]);
   }
-  if (!mesh.corners.empty()) {
-    out.begin(kCorners, "Corners", mesh.corners.size(), 4);
-    for (VertexId v : mesh.corners) out.last(v + 1);
-  }
+  const auto list = [&](Keyword keyword, const char* name, const std::vector<Index>& numbers) {
+    if (numbers.empty()) return;
+    out.begin(keyword, name, numbers.size(), 4);
+    for (const Index i : numbers) out.last(i + 1);
+  };
+  list(kCorners, "Corners", mesh.corners);
+  list(kRequiredVertices, "RequiredVertices", mesh.required_vertices);
+  list(Dim == 2 ? kRequiredEdges : kRequiredQuadrilaterals, Dim == 2 ? "RequiredEdges" : "RequiredQuadrilaterals",
+       places_of_required_facets(mesh));
+  if (Dim == 2) list(kRequiredQuadrilaterals, "RequiredQuadrilaterals", mesh.required_cells);
   out.end_file();
 }
 

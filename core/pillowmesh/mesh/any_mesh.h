@@ -40,9 +40,9 @@ Status other_dimension() {
 
 /// make_mesh with `name`, the input's file, in front of what it finds wrong.
 template <int Dim>
-Expected<AnyMesh> make_any_mesh(MeshInput<Dim> input, std::string_view name) {
+Expected<AnyMesh> make_any_mesh(MeshInput<Dim> input, std::string_view name, const BoundaryOptions& options = {}) {
   if constexpr (kHasDimension<Dim>) {
-    auto mesh = make_mesh<Dim>(std::move(input));
+    auto mesh = make_mesh<Dim>(std::move(input), options);
     if (mesh) return AnyMesh(std::move(*mesh));
     return Status{mesh.status().code, std::string(name) + ": " + mesh.status().message};
   } else {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pillowmesh/mesh/classify.h"
+#include "pillowmesh/mesh/frozen.h"
 #include "pillowmesh/mesh/topology.h"
 #include "pillowmesh/mesh/validate.h"
 
@@ -63,6 +64,17 @@ void drop_unused_vertices(MeshInput<Dim>& input) {
   for (VertexId& v : input.corners) v = renumbered[v];
   std::erase_if(input.ridges, [&](auto& r) { return !known(r[0]) || !known(r[1]); });
   for (auto& ridge : input.ridges) ridge = {renumbered[ridge[0]], renumbered[ridge[1]]};
+  std::erase_if(input.required_vertices, [&](VertexId v) { return !known(v); });
+  for (VertexId& v : input.required_vertices) v = renumbered[v];
+  const auto renumber_all = [&](auto& list) {
+    std::erase_if(list, [&](auto& vertices) { return !std::all_of(vertices.begin(), vertices.end(), known); });
+    for (auto& vertices : list)
+      for (VertexId& v : vertices) v = renumbered[v];
+  };
+  renumber_all(input.required_edges);
+  renumber_all(input.required_facets);
+  std::erase_if(input.marks, [&](auto& m) { return !known(m.ends[0]) || !known(m.ends[1]); });
+  for (auto& mark : input.marks) mark.ends = {renumbered[mark.ends[0]], renumbered[mark.ends[1]]};
 }
 
 /// Where two cells share two facets with a common edge, one of them is inverted wherever the vertices are: says so.
@@ -91,7 +103,7 @@ Expected<Mesh<Dim>> make_mesh(MeshInput<Dim> input, const BoundaryOptions& optio
   mesh.cells = std::move(input.cells);
   mesh.region = std::move(input.cell_region);
   mesh.region.resize(mesh.cells.size(), 0);
-  mesh.region_groups = std::move(input.region_groups);
+  mesh.region_groups = input.region_groups;
   if (mesh.region_groups.empty()) mesh.region_groups.push_back({0, ""});
   for (Index& r : mesh.region)
     if (r < 0 || r >= static_cast<Index>(mesh.region_groups.size())) r = 0;
@@ -111,6 +123,7 @@ Expected<Mesh<Dim>> make_mesh(MeshInput<Dim> input, const BoundaryOptions& optio
   const auto adjacency = find_adjacency_defects(mesh, most);
   if (!adjacency.empty()) return refused(adjacency);
   classify_boundary(mesh, input, options);
+  if (Status s = freeze(mesh, input, options.freeze); !s.ok()) return s;
   return mesh;
 }
 
@@ -126,7 +139,7 @@ MeshInput<Dim> to_input(const Mesh<Dim>& mesh) {
     if (renumbered[v] == kNone) continue;
     renumbered[v] = static_cast<Index>(out.points.size());
     out.points.push_back(mesh.points[v]);
-    if (mesh.support[v].dim == 0) out.corners.push_back(renumbered[v]);
+    if (mesh.support[v].dim == 0 && !mesh.support[v].frozen()) out.corners.push_back(renumbered[v]);
   }
   out.region_groups = mesh.region_groups;
   // Patches of the same group are one group to a file.
@@ -158,6 +171,7 @@ MeshInput<Dim> to_input(const Mesh<Dim>& mesh) {
           out.ridges.push_back({renumbered[a], renumbered[b]});
       }
   }
+  list_frozen(mesh, renumbered, out);
   return out;
 }
 

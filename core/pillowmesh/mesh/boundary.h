@@ -8,10 +8,24 @@
 
 namespace pillowmesh {
 
+/// What turns the chord from a to b into a curve, a cubic with the slopes (b - a) + bend at its ends:
+///   p(s) = a + s (b - a) + s (1 - s) ((1 - s) from - s to),  s from 0 to 1.
+template <int Dim>
+struct Bend {
+  Point<Dim> from = Point<Dim>::Zero(), to = Point<Dim>::Zero();
+};
+
+struct Circle {
+  Point<2> centre;
+  double radius;
+};
+
 /// The boundary of the initial mesh, kept as the shape of the domain. `points` are its boundary vertices.
 template <int Dim>
 struct Geometry {
   static constexpr int facet_sides = 2 * (Dim - 1);
+  /// Curves of a facet: itself in 2D, its four sides in 3D.
+  static constexpr int facet_curves = Dim == 2 ? 1 : 4;
 
   std::vector<Point<Dim>> points;
   /// Boundary facets in the order of Cell<Dim>::facet_corner of their cell, the sign that turns them outward, the patch.
@@ -27,12 +41,22 @@ struct Geometry {
   std::vector<Index> curve;
   std::vector<std::array<Index, 2>> segment_neighbours;
   std::vector<std::array<PatchId, 2>> curve_patches;  ///< per curve: the lower patch number first
+
+  /// Smooth geometry (mesh/smooth_geometry.h); empty where pieces are straight. Per facet the curves from the lower to the
+  /// higher of its corners, in 3D of its sides in the order of Cell<2>'s facets; per feature edge.
+  std::vector<std::array<Bend<Dim>, facet_curves>> bends;
+  std::vector<Bend<Dim>> segment_bends;
+  /// 2D: the circle that a facet is an arc of, kNone for others.
+  std::vector<Circle> circles;
+  std::vector<Index> circle;
 };
 
 struct BoundaryOptions {
   /// A vertex (2D) or an edge (3D) of the boundary is a corner or feature where groups meet, or where the boundary
   /// turns by an angle whose cosine is below this. The default is 40 degrees.
   double corner_cosine = 0.7660444431189780;
+  /// Groups, by name or number, whose vertices, edges, facets and cells must be in the output as they are in the input.
+  std::vector<std::string> freeze;
 };
 
 /// Builds a mesh from what a reader found: drops unused vertices, finds neighbours, checks (see validate.h), splits

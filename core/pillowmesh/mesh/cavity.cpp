@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pillowmesh/mesh/compact.h"
+#include "pillowmesh/mesh/frozen.h"
 #include "pillowmesh/mesh/ordered_star.h"
 
 namespace pillowmesh {
@@ -82,6 +83,28 @@ void Journal::undo() {
   ++stamp_;
 }
 
+/// True if what is frozen among the old cells is among the new ones.
+bool Journal::keeps_frozen(const Cavity& cavity) const {
+  if (!mesh_.frozen) return true;
+  const auto frozen = [&](VertexId v) { return mesh_.support[v].frozen(); };
+  if (std::any_of(cavity.removed.begin(), cavity.removed.end(), frozen)) return false;
+  if (std::any_of(cavity.moved.begin(), cavity.moved.end(), frozen)) return false;
+  const auto remains = [&](VertexId a, VertexId b) {
+    for (const Corners<2>& cell : cavity.new_cells)
+      for (int i = 0; i < 4; ++i)
+        if (cell[kAround[i]] == a && cell[kAround[(i + 1) & 3]] == b) return true;
+    return false;
+  };
+  for (const CellId c : cavity.old_cells) {
+    if (is_frozen_cell(mesh_, mesh_.cells[c])) return false;
+    for (int i = 0; i < 4; ++i) {
+      const VertexId a = around(mesh_, c, i), b = around(mesh_, c, i + 1);
+      if (is_frozen_edge(mesh_, a, b) && !remains(a, b)) return false;
+    }
+  }
+  return true;
+}
+
 CellId Journal::take_cell() {
   if (!free_cells_.empty()) {
     const CellId c = free_cells_.back();
@@ -107,6 +130,7 @@ VertexId Journal::take_vertex() {
 }
 
 bool Journal::apply(Cavity& cavity, std::vector<CellId>& new_ids) {
+  if (!keeps_frozen(cavity)) return false;
   const auto merged = [&](VertexId v) {
     for (std::size_t i = 0; i < cavity.removed.size(); ++i)
       if (cavity.removed[i] == v) return cavity.merged_into[i];

@@ -52,7 +52,8 @@ class Journal {
   void begin();
   /// Does what is planned. \pre the new cells have the outline of the old ones. `new_ids` receives the numbers of the
   /// new cells, in the order of cavity.new_cells; new vertices in cavity are replaced by their numbers.
-  /// \return false, with the mesh in an undefined state until undo(), when the outlines do not match.
+  /// \return false, with the mesh in an undefined state until undo(), when the outlines do not match or something frozen
+  /// would change.
   bool apply(Cavity& cavity, std::vector<CellId>& new_ids);
   /// To be called before a vertex is moved.
   void touch(VertexId v);
@@ -88,6 +89,7 @@ class Journal {
   void touch_cell(CellId c);
   CellId take_cell();
   VertexId take_vertex();
+  [[nodiscard]] bool keeps_frozen(const Cavity& cavity) const;
   bool link(const std::vector<CellId>& ids);
 
   Mesh<2>& mesh_;

@@ -40,6 +40,19 @@ void compact(Mesh<Dim>& mesh) {
     mesh.anchor[n] = mesh.anchor[v];
   }
   resize(mesh, vertices, cells);
+  if (!mesh.frozen) return;
+  // Frozen vertices live, and those that live keep their order: the lists stay sorted.
+  auto frozen = std::make_shared<Frozen<Dim>>(*mesh.frozen);
+  const auto renumber = [&](auto& list) {
+    for (auto& vertices : list)
+      for (VertexId& v : vertices) v = vertex[v];
+  };
+  renumber(frozen->edges);
+  renumber(frozen->facets);
+  renumber(frozen->cells);
+  for (auto& facet : frozen->inner_facets)
+    for (VertexId& v : facet.vertices) v = vertex[v];
+  mesh.frozen = std::move(frozen);
 }
 
 template void resize(Mesh<2>&, Index, Index);

@@ -17,6 +17,9 @@ namespace pillowmesh {
 struct VertexSupport {
   std::int8_t dim = 0;
   Index entity = kNone;
+  /// The `entity` of vertices that nothing may move or remove, wherever they are: dim is 0 then.
+  static constexpr Index kFrozen = -2;
+  [[nodiscard]] bool frozen() const { return dim == 0 && entity == kFrozen; }
   friend bool operator==(const VertexSupport&, const VertexSupport&) = default;
 };
 
@@ -28,6 +31,21 @@ struct Group {
 
 template <int Dim>
 struct Geometry;  // mesh/boundary.h
+
+/// What must stay as it is besides frozen vertices (mesh/frozen.h): vertices of each in ascending order, the lists too.
+/// Vertices keep their numbers, so that no operator has to maintain this.
+template <int Dim>
+struct Frozen {
+  std::vector<std::array<VertexId, 2>> edges;
+  std::vector<FacetCorners<Dim>> facets;  ///< 3D only: in 2D they are edges
+  std::vector<Corners<Dim>> cells;
+  /// Facets inside the domain, in the input's order of vertices, and their groups: for writers.
+  struct InnerFacet {
+    FacetCorners<Dim> vertices;
+    Group group;
+  };
+  std::vector<InnerFacet> inner_facets;
+};
 
 /// A conforming all-quadrilateral or all-hexahedral mesh.
 ///
@@ -52,6 +70,8 @@ struct Mesh {
   std::vector<Group> region_groups;
   /// The domain's boundary as it was given; shared by all meshes adapted from one input, never changed.
   std::shared_ptr<const Geometry<Dim>> geometry;
+  /// Null when nothing is frozen.
+  std::shared_ptr<const Frozen<Dim>> frozen;
 
   [[nodiscard]] Index vertex_count() const { return static_cast<Index>(points.size()); }
   [[nodiscard]] Index cell_count() const { return static_cast<Index>(cells.size()); }
@@ -90,10 +110,24 @@ struct MeshInput {
   };
   std::vector<Facet> facets;
   std::vector<Group> facet_groups;
-  /// Vertices that the file pins (Medit Corners, RequiredVertices; Gmsh physical points).
+  /// Vertices that the file pins (Medit Corners; Gmsh physical points).
   std::vector<VertexId> corners;
   /// Feature edges that the file names (Medit Ridges); used in 3D only.
   std::vector<std::array<VertexId, 2>> ridges;
+
+  /// What has to stay as it is (Medit Required*). Edges in 3D only: in 2D they are facets.
+  std::vector<VertexId> required_vertices;
+  std::vector<std::array<VertexId, 2>> required_edges;
+  std::vector<FacetCorners<Dim>> required_facets;
+  std::vector<Index> required_cells;
+  /// Points (both ends the same) and, in 3D, edges that carry a group, for BoundaryOptions::freeze; `group` indexes
+  /// `mark_groups`.
+  struct Mark {
+    std::array<VertexId, 2> ends;
+    Index group;
+  };
+  std::vector<Mark> marks;
+  std::vector<Group> mark_groups;
 
   /// How to name cell c in a message, e.g. "quad 17 (line 240)"; empty: "cell c" counted from 0.
   std::vector<Index> cell_lines;

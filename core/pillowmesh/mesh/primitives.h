@@ -32,7 +32,8 @@ bool is_primitive(std::string_view text);
 ///                                            about the origin: N cells along each far side, M from the arc outward
 ///     lprism:N,M[,NZ]:S,A[,Z0,Z1]            L or L-prism: sides of length S with N cells, arms of width A with M
 ///
+/// `freeze`: groups as in BoundaryOptions.
 /// \return usage with the offending part when malformed.
-Expected<AnyMesh> parse_primitive(std::string_view spec);
+Expected<AnyMesh> parse_primitive(std::string_view spec, const std::vector<std::string>& freeze = {});
 
 }  // namespace pillowmesh

@@ -124,11 +124,7 @@ Expected<AnyMesh> finish(MeshInput<Dim> input) {
   }
 }
 
-}  // namespace
-
-bool is_primitive(std::string_view text) { return find_form(text) != nullptr; }
-
-Expected<AnyMesh> parse_primitive(std::string_view spec) {
+Expected<AnyMesh> make_primitive(std::string_view spec) {
   const Form* form = find_form(spec);
   if (form == nullptr) {
     std::string forms;
@@ -154,6 +150,20 @@ Expected<AnyMesh> parse_primitive(std::string_view spec) {
   const double low = numbers->sizes[form->sizes], high = numbers->sizes[form->sizes + 1];
   if (!(low < high)) return mistake(*form, "Z0 < Z1 must hold");
   return finish<3>(extrude(section, numbers->counts[2], low, high));
+}
+
+}  // namespace
+
+bool is_primitive(std::string_view text) { return find_form(text) != nullptr; }
+
+Expected<AnyMesh> parse_primitive(std::string_view spec, const std::vector<std::string>& freeze) {
+  auto mesh = make_primitive(spec);
+  if (!mesh || freeze.empty()) return mesh;
+  // Made again, with the patches and corners that it has.
+  BoundaryOptions options;
+  options.corner_cosine = -2.0;
+  options.freeze = freeze;
+  return std::visit([&](const auto& m) { return make_any_mesh(to_input(m), spec, options); }, *mesh);
 }
 
 }  // namespace pillowmesh

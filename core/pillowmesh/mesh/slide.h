@@ -11,6 +11,11 @@ namespace pillowmesh {
 template <int Dim>
 Point<Dim> slide(const Geometry<Dim>& geometry, VertexSupport support, Index& anchor, const Point<Dim>& target);
 
+/// Where boundary vertex v can go: along its curve (the first, in 3D twice), or on its patch. Not of unit length.
+/// \pre support[v].dim is between 0 and Dim.
+template <int Dim>
+std::array<Point<Dim>, Dim - 1> tangents(const Mesh<Dim>& mesh, VertexId v);
+
 /// Anchor of a vertex that moves from where vertex `from` was onto the entity of `support`: the facet or segment of the
 /// entity that touches or is nearest to `start`'s anchor. \return kNone when the entity is not next to it.
 template <int Dim>

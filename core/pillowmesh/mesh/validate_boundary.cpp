@@ -132,6 +132,7 @@ std::vector<Defect> find_support_defects(const Mesh<Dim>& mesh, int most) {
   for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
     if (mesh.vertex_cell[v] == kNone) continue;
     const VertexSupport s = mesh.support[v];
+    if (s.frozen()) continue;
     if (patches[v] == kNone && s.dim != Dim) report(v, "is inside but classified as a boundary vertex");
     if (patches[v] != kNone && s.dim == Dim) report(v, "is on the boundary but classified as inside");
     if (s.dim == Dim - 1 && patches[v] != s.entity) report(v, "is not on the one patch that it is classified on");

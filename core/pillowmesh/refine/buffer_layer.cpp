@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "pillowmesh/mesh/frozen.h"
 #include "pillowmesh/mesh/jacobian.h"
 #include "pillowmesh/mesh/slide.h"
 #include "pillowmesh/refine/make_room.h"
@@ -137,6 +138,10 @@ class Inserter {
       VertexSupport found;
       if (!support_from_facets(v, v, found)) return false;
       const VertexSupport now = mesh_.support[v];
+      if (now.frozen()) {  // it stays, so the boundary must stay with it
+        if (found.dim == Dim && mesh_.anchor[v] != kNone) return false;
+        continue;
+      }
       if (found == now || (now.dim == 0 && found.dim < Dim)) continue;
       if (found.dim < now.dim) return false;
       release(v, found);
@@ -195,7 +200,7 @@ class Inserter {
 
   /// Lets a vertex leave the corner of the domain that it is on, for a copy. False if the outside needs the corner too.
   bool leaves_corner(VertexId origin) {
-    if (mesh_.support[origin].dim != 0) return false;
+    if (mesh_.support[origin].dim != 0 || mesh_.support[origin].frozen()) return false;
     VertexSupport found;
     if (!support_from_facets(origin, origin, found) || found.dim == 0) return false;
     release(origin, found);
@@ -301,6 +306,11 @@ Status try_to_insert(Mesh<Dim>& mesh, std::span<const CellId> shrink_set,
     inserter.extrude();
     inserter.connect_sides();
     inserter.repair_vertex_cells();
+    if (!frozen_remain<Dim>(mesh, layer.old_corners)) {
+      inserter.undo();
+      status = Status::illegal("something frozen would be split");
+      break;
+    }
     if (!inserter.conforming() || !inserter.supports_hold()) {
       inserter.undo();
       status = Status::illegal("the new cells would not fit: two share more than one facet, or leave their boundary");

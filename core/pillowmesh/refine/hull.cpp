@@ -1,5 +1,7 @@
 #include "pillowmesh/refine/hull.h"
 
+#include "pillowmesh/mesh/frozen.h"
+
 namespace pillowmesh {
 
 template <int Dim>
@@ -38,7 +40,7 @@ void find_hull(const Mesh<Dim>& mesh, std::span<const CellId> shrink_set, std::s
   for (const CellId c : shrink_set)
     for (int f = 0; f < C::facets; ++f) {
       const CellId n = mesh.neighbour(c, f);
-      if (n != kNone && !hull.in_set[n]) add(c, f);
+      if (n != kNone ? !hull.in_set[n] : !hull.is_hull(c, f) && must_stay(mesh, c, f)) add(c, f);
     }
 }
 

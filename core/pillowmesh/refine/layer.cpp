@@ -1,5 +1,7 @@
 #include "pillowmesh/refine/layer.h"
 
+#include "pillowmesh/mesh/frozen.h"
+
 namespace pillowmesh {
 namespace {
 
@@ -21,7 +23,7 @@ class Grower {
   }
 
   void add(CellId c, int axis, int up) {
-    if ((marks_.visited[c] >> axis) & 1) return;
+    if ((marks_.visited[c] >> axis) & 1 || is_frozen_cell(mesh_, mesh_.cells[c])) return;
     if (marks_.visited[c] == 0) layer_.cells.push_back(c);
     marks_.visited[c] |= static_cast<std::uint8_t>(1 << axis);
     layer_.visits.push_back({c, static_cast<std::int8_t>(axis), static_cast<std::int8_t>(up)});
@@ -57,7 +59,7 @@ class Grower {
       if (v.cell >= first_new) continue;
       for (int k = 0; k < C::edges_per_axis; ++k) {
         const int e = C::edge(v.axis, k);
-        add_cells_at({v.cell, e}, top_of(v, e));
+        if (!is_frozen_edge(mesh_, {v.cell, e})) add_cells_at({v.cell, e}, top_of(v, e));
       }
     }
   }

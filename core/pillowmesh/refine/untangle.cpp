@@ -92,21 +92,17 @@ class Untangler {
 
   /// Scales the gradient, and takes off what points out of a boundary vertex's curve or patch.
   void to_tangent() {
-    const Geometry<Dim>& g = *mesh_.geometry;
     for (std::size_t i = 0; i < n_; ++i) {
       const VertexId v = patch_.free[i];
       Point<Dim>& slope = gradient_[i];
       slope *= energy_.size(i);
       const VertexSupport support = mesh_.support[v];
       if (support.dim == Dim) continue;
-      const Index at = mesh_.anchor[v];
+      const auto along = tangents(mesh_, v);
       if (support.dim == 1) {
-        const Point<Dim> along = Dim == 2 ? Point<Dim>(g.points[g.facets[at][1]] - g.points[g.facets[at][0]])
-                                          : Point<Dim>(g.points[g.segments[at][1]] - g.points[g.segments[at][0]]);
-        slope = (slope.dot(along) / along.squaredNorm()) * along;
+        slope = (slope.dot(along[0]) / along[0].squaredNorm()) * along[0];
       } else if constexpr (Dim == 3) {
-        const auto& f = g.facets[at];
-        const Point<3> normal = vector_product(g.points[f[3]] - g.points[f[0]], g.points[f[2]] - g.points[f[1]]);
+        const Point<3> normal = vector_product(along[0], along[1]);
         slope -= (slope.dot(normal) / normal.squaredNorm()) * normal;
       }
     }

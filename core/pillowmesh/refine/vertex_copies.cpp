@@ -35,8 +35,8 @@ class VertexPlanner {
     if (!find_components(v))
       return Status::illegal("the shrink set touches itself at an edge of vertex " + std::to_string(v) +
                              " where neither it nor the rest can be joined");
-    // A boundary facet that is hull leaves v to the (empty) outside.
-    bool kept = boundary_hull_at();
+    // The first component outside keeps v; where there is none v is left to the hull on the boundary, if any.
+    bool kept = false;
     for (int i = 0; i < static_cast<int>(star_.size()); ++i) {
       if (component_[i] != i) continue;
       const bool inside = hull_.in_set[star_[i].cell];
@@ -127,15 +127,6 @@ class VertexPlanner {
     for (int i = 0; i < static_cast<int>(star_.size()); ++i)
       if (star_[i].cell == c) return i;
     return -1;
-  }
-
-  bool boundary_hull_at() const {
-    for (const auto& [c, corner] : star_)
-      for (int axis = 0; axis < Dim; ++axis) {
-        const int f = C::facet(axis, (corner >> axis) & 1);
-        if (hull_.is_hull(c, f) && mesh_.on_boundary(c, f)) return true;
-      }
-    return false;
   }
 
   /// True if facet f of cell c parts the two sides: hull, seen from inside or outside.

@@ -212,9 +212,7 @@ bool QuadRelocator::derivatives(VertexId v, Derivatives& sum) {
 }
 
 Point<2> curve_direction(const Mesh<2>& mesh, VertexId v) {
-  const Geometry<2>& geometry = *mesh.geometry;
-  const auto& facet = geometry.facets[mesh.anchor[v]];
-  return (geometry.points[facet[1]] - geometry.points[facet[0]]).normalized();
+  return tangents(mesh, v)[0].normalized();
 }
 
 double QuadRelocator::relocate(VertexId v) {

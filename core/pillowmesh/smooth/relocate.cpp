@@ -56,28 +56,18 @@ template <int Dim>
 Tangent<Dim> tangent_at(const Mesh<Dim>& mesh, VertexId v) {
   Tangent<Dim> t{};
   const VertexSupport s = mesh.support[v];
-  const auto& g = *mesh.geometry;
   if (s.dim == Dim) {
     for (int d = 0; d < Dim; ++d) t.direction[d] = Point<Dim>::Unit(d);
     t.count = Dim;
     return t;
   }
   t.count = s.dim;
-  if (s.dim == 1) {
-    Point<Dim> e;
-    if constexpr (Dim == 2)
-      e = g.points[g.facets[mesh.anchor[v]][1]] - g.points[g.facets[mesh.anchor[v]][0]];
-    else
-      e = g.points[g.segments[mesh.anchor[v]][1]] - g.points[g.segments[mesh.anchor[v]][0]];
-    t.direction[0] = e / std::sqrt(e.squaredNorm());
-  }
+  if (s.dim == 0) return t;
+  const auto along = tangents(mesh, v);
+  t.direction[0] = along[0] / std::sqrt(along[0].squaredNorm());
   if constexpr (Dim == 3)
     if (s.dim == 2) {
-      const auto& f = g.facets[mesh.anchor[v]];
-      const Point<3> a = g.points[f[3]] - g.points[f[0]], b = g.points[f[2]] - g.points[f[1]];
-      const Point<3> u = a / std::sqrt(a.squaredNorm());
-      Point<3> w = b - u.dot(b) * u;
-      t.direction[0] = u;
+      const Point<3> w = along[1] - t.direction[0].dot(along[1]) * t.direction[0];
       t.direction[1] = w / std::sqrt(w.squaredNorm());
     }
   return t;
