@@ -2,6 +2,7 @@
 import { CrashError, LoadError } from '../../../wasm/loader.ts';
 import { CoreError } from '../../../wasm/session.ts';
 import { looksInside } from '../inside/look_inside.ts';
+import { makeEmbedDialog } from '../panels/embed_dialog.ts';
 import { makeHeader, type SaveFormat } from '../panels/header.ts';
 import { makeHelp } from '../panels/help.ts';
 import { makeIndicators } from '../panels/indicators.ts';
@@ -39,6 +40,18 @@ export class App {
   private readonly messages = makeMessages();
   private readonly indicators = makeIndicators();
   private readonly help = makeHelp(() => this.version);
+  private readonly embedding = makeEmbedDialog((done) =>
+    this.messages.show({ kind: 'note', text: done ? 'The code is copied.' : 'The code is selected; copy it from there.' }),
+  );
+  private readonly header = makeHeader({
+    copyLink: () => void this.copyLink(),
+    embed: () => this.embedding.show(this.link(), this.stage.caption),
+    undo: () => this.history.undo(),
+    redo: () => this.history.redo(),
+    save: (format) => void this.save(format),
+    toggleTheme,
+    help: () => this.help.showModal(),
+  });
   private readonly inside = makeLookInside({
     change: (inside) => this.change({ inside }),
     viewDirection: () => this.stage.picture.direction,
@@ -84,12 +97,7 @@ export class App {
       problem.hidden = sentence === null;
     };
     root.replaceChildren(
-      makeHeader({
-        copyLink: () => void this.copyLink(),
-        save: (format) => void this.save(format),
-        toggleTheme,
-        help: () => this.help.showModal(),
-      }),
+      this.header.element,
       h(
         'main',
         {},
@@ -111,6 +119,7 @@ export class App {
       ),
       this.messages.element,
       this.help,
+      this.embedding.element,
     );
     this.listen();
     void this.stage.show();
@@ -282,6 +291,7 @@ export class App {
     if (this.stage.player.playing || this.stage.subject.empty) return;
     const link = this.link();
     this.history.record(link);
+    this.header.update(this.history);
     history.replaceState(null, '', `#${link}`);
   }
 

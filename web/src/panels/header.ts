@@ -4,6 +4,9 @@ import { icon, type IconName } from '../ui/icons.ts';
 
 export interface HeaderActions {
   copyLink(): void;
+  embed(): void;
+  undo(): void;
+  redo(): void;
   save(what: SaveFormat): void;
   toggleTheme(): void;
   help(): void;
@@ -29,7 +32,12 @@ function logo(): SVGSVGElement {
   );
 }
 
-export function makeHeader(actions: HeaderActions): HTMLElement {
+export interface Header {
+  element: HTMLElement;
+  update(state: { canUndo: boolean; canRedo: boolean }): void;
+}
+
+export function makeHeader(actions: HeaderActions): Header {
   const button = (name: IconName, label: string, action: () => void): HTMLButtonElement =>
     h(
       'button',
@@ -62,7 +70,10 @@ export function makeHeader(actions: HeaderActions): HTMLElement {
     menu.open = false;
     menu.querySelector('summary')?.focus();
   });
-  return h(
+  const undo = button('undo', 'Undo', actions.undo);
+  const redo = button('redo', 'Redo', actions.redo);
+  for (const once of [undo, redo]) once.querySelector('span')!.className = 'unseen';
+  const element = h(
     'header',
     { class: 'top' },
     h('h1', {}, logo(), 'pillowmesh'),
@@ -70,10 +81,20 @@ export function makeHeader(actions: HeaderActions): HTMLElement {
     h(
       'nav',
       { 'aria-label': 'Page' },
+      undo,
+      redo,
+      h('a', { class: 'plain', href: './lessons/index.html', title: 'Lessons' }, icon('book'), h('span', { class: 'wide-only' }, 'Lessons')),
       button('link', 'Copy link', actions.copyLink),
+      button('embed', 'Embed', actions.embed),
       menu,
       button('theme', 'Theme', actions.toggleTheme),
       button('help', 'Help', actions.help),
     ),
-  );
+  );  return {
+    element,
+    update({ canUndo, canRedo }) {
+      undo.setAttribute('aria-disabled', String(!canUndo));
+      redo.setAttribute('aria-disabled', String(!canRedo));
+    },
+  };
 }

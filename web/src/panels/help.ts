@@ -13,6 +13,7 @@ const keys: readonly [string, string][] = [
   ['X Y Z', 'cut it across an axis, then from the other side'],
   ['E', 'its irregular edges'],
   ['F', 'show the whole mesh'],
+  ['Ctrl+Z Ctrl+Y', 'undo, redo'],
   ['O', 'open a mesh file'],
   ['?', 'this help'],
 ];

@@ -126,7 +126,7 @@ export class Stage {
   async seek(event: number): Promise<void> {
     this.player.pause();
     if (event <= 0 || this.player.complete || event <= this.player.events.length) this.player.seek(event);
-    else if (this.run.hasRun) this.run.awaited = event;
+    else if (this.run.hasRun) await this.run.await(event);
     else await this.run.start({ show: event });
   }
 
