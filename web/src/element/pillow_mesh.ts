@@ -202,7 +202,7 @@ export class PillowMeshElement extends Base {
     root.adoptedStyleSheets = styleSheets();
     this.start = h(
       'button',
-      { type: 'button', class: 'start', part: 'start', 'aria-label': 'Play', onclick: () => this.play() },
+      { type: 'button', class: 'start', part: 'start', 'aria-label': 'Play', hidden: true, onclick: () => this.play() },
       icon('play'),
     );
     this.status = h('p', { class: 'problem', part: 'problem', role: 'alert', hidden: true });
@@ -244,6 +244,7 @@ export class PillowMeshElement extends Base {
       },
       root,
     );
+    this.showNothing();
     this.behave();
   }
 
@@ -328,6 +329,20 @@ export class PillowMeshElement extends Base {
     } catch (error) {
       this.tell(new Error(`${src} could not be fetched: ${(error as Error).message}.`));
     }
+  }
+
+  /** The controls before anything is loaded. */
+  private showNothing(): void {
+    this.transport!.update({
+      events: [],
+      index: 0,
+      playing: false,
+      running: false,
+      pace: 'auto',
+      caption: this.getAttribute('aria-label') ?? '',
+      kind: null,
+      iteration: 1,
+    });
   }
 
   private refresh(): void {
