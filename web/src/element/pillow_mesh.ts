@@ -218,7 +218,7 @@ export class PillowMeshElement extends Base {
     });
     this.transport.element.setAttribute('part', 'transport');
     this.transport.caption.setAttribute('part', 'caption');
-    const picture = h('div', { class: 'stage', part: 'stage' }, this.legend.element, this.start, this.status);
+    const picture = h('div', { class: 'stage', part: 'stage' }, this.legend.element, h('output', { class: 'pointed', part: 'pointed', hidden: true }), this.start, this.status);
     this.legend.element.setAttribute('part', 'legend');
     picture.prepend(h('div', { class: 'poster', part: 'poster' }, h('slot')));
     root.append(
@@ -280,6 +280,11 @@ export class PillowMeshElement extends Base {
         }),
       tell: (error) => this.tell(error),
     }));
+    const pointed = this.shadowRoot!.querySelector<HTMLElement>('.pointed')!;
+    stage.picture.onPoint = (sentence) => {
+      pointed.textContent = sentence;
+      pointed.hidden = sentence === null;
+    };
     stage.picture.onProblem = (sentence) => this.showProblem(sentence);
     this.shadowRoot!.querySelector('.poster')!.after(stage.picture.host);
     this.wake();

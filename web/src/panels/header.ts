@@ -18,6 +18,8 @@ export const saveFormats = [
   { id: 'msh', label: 'Gmsh .msh', kind: 'mesh' },
   { id: 'mesh', label: 'Medit .mesh', kind: 'mesh' },
   { id: 'png', label: 'Picture .png', kind: 'other' },
+  { id: 'svg', label: 'Drawing .svg (quads)', kind: 'other' },
+  { id: 'webm', label: 'Film of the run .webm', kind: 'other' },
   { id: 'json', label: 'Report .json', kind: 'other' },
 ] as const;
 export type SaveFormat = (typeof saveFormats)[number]['id'];

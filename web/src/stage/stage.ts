@@ -55,6 +55,7 @@ export class Stage {
       done: (result) => host.done(result),
       tell: (error) => host.tell(error),
     });
+    this.picture.onWish = () => this.sampling.request(0);
     const tick = makeTicker(player);
     player.onShow = (shown) => {
       this.picture.show(shown);
@@ -171,7 +172,7 @@ export class Stage {
     ] as ArrayBuffer[]);
     if (mesh !== this.player.mesh) return;
     this.measures = measures;
-    this.picture.setShapes(measures.shapes as Float64Array<ArrayBuffer>);
+    this.picture.setMeasures(measures);
     this.host.measured(measures);
   }
 }
