@@ -102,12 +102,16 @@ export interface Modules {
   files(): Promise<FilesModule>;
 }
 
-export function modulesFrom(sources: ModuleSources): Modules {
+/** `read` may turn a source into another, e.g. an address into bytes, when it is wanted. */
+export function modulesFrom(
+  sources: ModuleSources,
+  read: (source: CoreSource) => CoreSource | Promise<CoreSource> = (source) => source,
+): Modules {
   const cores = new Map<CoreName, Promise<Core>>();
   const files = new Map<'files', Promise<FilesModule>>();
   return {
-    core: (name) => once(cores, name, () => loadCore(sources[name])),
-    files: () => once(files, 'files', () => loadFiles(sources.files)),
+    core: (name) => once(cores, name, async () => loadCore(await read(sources[name]))),
+    files: () => once(files, 'files', async () => loadFiles(await read(sources.files))),
   };
 }
 

@@ -38,7 +38,8 @@ export interface RunResult {
 export interface Measures {
   /** NaN for dead cells. */
   shapes: Float64Array;
-  /** Empty unless asked for. */
+  /** Each edge once, as a pair of vertices, and its length. Empty unless asked for. */
+  edges: Int32Array;
   lengths: Float64Array;
 }
 

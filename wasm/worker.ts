@@ -146,10 +146,8 @@ export class Server {
       case 'measure': {
         const { points, cells, lengths } = request.args;
         const shapes = this.session().cellShapes(points, cells);
-        return {
-          shapes,
-          lengths: lengths ? this.session().edgeLengths(points, cells).lengths : new Float64Array(0),
-        };
+        if (!lengths) return { shapes, edges: new Int32Array(0), lengths: new Float64Array(0) };
+        return { shapes, ...this.session().edgeLengths(points, cells) };
       }
       case 'tensors':
         return this.session().tensors(request.args.points);

@@ -2,6 +2,7 @@ import { readdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
+import { lessonFrame } from './lesson_frame.ts';
 
 const web = dirname(fileURLToPath(import.meta.url));
 
@@ -34,7 +35,7 @@ function contentSecurityPolicy(): Plugin {
 export default defineConfig({
   root: web,
   base: './', // works from any folder of any static host
-  plugins: [contentSecurityPolicy()],
+  plugins: [lessonFrame(), contentSecurityPolicy()],
   server: { fs: { allow: [dirname(web)] } },
   worker: { format: 'es' },
   build: {

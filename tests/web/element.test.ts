@@ -198,6 +198,7 @@ describe('works', () => {
     copyFileSync(join(site, 'pillow-mesh.standalone.js'), join(folder, 'pillow-mesh.standalone.js'));
     const script = '<script src="pillow-mesh.standalone.js" defer></script>';
     writeFileSync(join(folder, 'page.html'), document_('<pillow-mesh id="figure" case="linear3d" event="2"></pillow-mesh>', script));
+    copyFileSync(join(site, 'icon.svg'), join(folder, '..', 'icon.svg'));
     await open(`file://${join(folder, 'page.html')}`);
     await expect.poll(() => position(), eventually).toBe(2);
     await figure().locator('.picture canvas').waitFor();

@@ -158,8 +158,13 @@ describe('looking', () => {
   test('cells are coloured by shape and age, each with a legend', async () => {
     await visit();
     expect(await page!.locator('.legend').isVisible()).toBe(false);
-    await page!.getByLabel('Shape η').check();
+    await page!.getByLabel('Colour of cells').selectOption('shape');
     expect(await page!.locator('.legend').innerText()).toMatch(/flat[\s\S]*unit/);
+    await page!.locator('h1').click();
+    for (const words of [/too short[\s\S]*too long/, /right angles/]) {
+      await page!.keyboard.press('c');
+      expect(await page!.locator('.legend').innerText()).toMatch(words);
+    }
     await page!.keyboard.press('c');
     expect(await page!.locator('.legend').innerText()).toContain('iteration');
   });

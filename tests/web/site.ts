@@ -1,8 +1,8 @@
 // The built page, served from memory-less static files, and a real browser to look at it with.
 import { createServer, type Server } from 'node:http';
-import { existsSync, readFileSync, statSync } from 'node:fs';
+import { existsSync, readFileSync, readdirSync, statSync } from 'node:fs';
 import type { AddressInfo } from 'node:net';
-import { extname, join, normalize } from 'node:path';
+import { extname, join, normalize, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium, type Browser } from 'playwright-core';
 // @ts-expect-error a plain script without types
@@ -36,7 +36,7 @@ export interface ServeOptions {
   /** Sent with every answer. */
   headers?: Record<string, string>;
   /** More pages, by their path below the site. */
-  pages?: Record<string, string>;
+  pages?: Record<string, string | Buffer>;
   /** Where the site is on its host. */
   below?: string;
 }
@@ -68,6 +68,17 @@ export function serveSite({ hide, headers = {}, pages = {}, below = '/mesh/' }: 
       }),
     ),
   );
+}
+
+/** Serves a folder's files at the root of a host. */
+export function serveFolder(folder: string): Promise<Serving> {
+  const pages = Object.fromEntries(
+    readdirSync(folder, { recursive: true, withFileTypes: true })
+      .filter((entry) => entry.isFile())
+      .map((entry) => join(entry.parentPath, entry.name))
+      .map((path) => [relative(folder, path), readFileSync(path)]),
+  );
+  return serveSite({ below: '/', pages });
 }
 
 /** Headless Chromium with software WebGL 2. */

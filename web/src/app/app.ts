@@ -2,6 +2,7 @@
 import { CrashError, LoadError } from '../../../wasm/loader.ts';
 import { CoreError } from '../../../wasm/session.ts';
 import { looksInside } from '../inside/look_inside.ts';
+import { makeEmbedDialog } from '../panels/embed_dialog.ts';
 import { makeHeader, type SaveFormat } from '../panels/header.ts';
 import { makeHelp } from '../panels/help.ts';
 import { makeIndicators } from '../panels/indicators.ts';
@@ -20,6 +21,7 @@ import { acceptDrops } from './drop.ts';
 import { History } from './history.ts';
 import { listenToKeys } from './keyboard.ts';
 import { keyActions } from './keys.ts';
+import { firstVisit } from './first_visit.ts';
 import { saveShown } from './saving.ts';
 import { followTheme, toggleTheme } from './theme.ts';
 
@@ -37,8 +39,24 @@ export class App {
   });
   private readonly history = new History((link) => void this.follow(decodeSettings(link)));
   private readonly messages = makeMessages();
-  private readonly indicators = makeIndicators();
+  private readonly indicators = makeIndicators({
+    pick: (measure, range) => this.pick(measure, range),
+    worst: () => this.flyToWorst(),
+  });
+  private readonly pointed = h('output', { class: 'pointed', hidden: true });
   private readonly help = makeHelp(() => this.version);
+  private readonly embedding = makeEmbedDialog((done) =>
+    this.messages.show({ kind: 'note', text: done ? 'The code is copied.' : 'The code is selected; copy it from there.' }),
+  );
+  private readonly header = makeHeader({
+    copyLink: () => void this.copyLink(),
+    embed: () => this.embedding.show(this.link(), this.stage.caption),
+    undo: () => this.history.undo(),
+    redo: () => this.history.redo(),
+    save: (format) => void this.save(format),
+    toggleTheme,
+    help: () => this.help.showModal(),
+  });
   private readonly inside = makeLookInside({
     change: (inside) => this.change({ inside }),
     viewDirection: () => this.stage.picture.direction,
@@ -48,6 +66,8 @@ export class App {
     toggleMark: (mark) => this.toggleMark(mark),
     setColouring: (colouring) => this.change({ colouring }),
     fit: () => this.stage.picture.fit(),
+    fullScreen: () => void this.toggleFullScreen(),
+    lookFrom: (direction) => this.stage.picture.lookFrom(direction),
   });
   private readonly transport = makeTransport({
     toggle: () => this.stage.run.togglePlay(),
@@ -84,12 +104,7 @@ export class App {
       problem.hidden = sentence === null;
     };
     root.replaceChildren(
-      makeHeader({
-        copyLink: () => void this.copyLink(),
-        save: (format) => void this.save(format),
-        toggleTheme,
-        help: () => this.help.showModal(),
-      }),
+      this.header.element,
       h(
         'main',
         {},
@@ -101,7 +116,7 @@ export class App {
             'div',
             { class: 'frame' },
             this.tools.element,
-            h('div', { class: 'stage' }, picture.host, this.tools.legend, this.start_, problem),
+            h('div', { class: 'stage' }, picture.host, this.tools.legend, this.pointed, this.start_, problem),
             this.inside.element,
           ),
           this.transport.caption,
@@ -111,6 +126,7 @@ export class App {
       ),
       this.messages.element,
       this.help,
+      this.embedding.element,
     );
     this.listen();
     void this.stage.show();
@@ -120,6 +136,10 @@ export class App {
   private listen(): void {
     const { picture, player, run } = this.stage;
     picture.onPose = () => this.rewriteLink();
+    picture.onPoint = (sentence) => {
+      this.pointed.textContent = sentence;
+      this.pointed.hidden = sentence === null;
+    };
     picture.onInside = (report) => report && this.inside.setReport(report);
     followTheme(() => {
       picture.retheme();
@@ -137,6 +157,7 @@ export class App {
         openFile: () => this.setup.openFileDialog(),
         help: () => this.help.showModal(),
         history: this.history,
+        worst: () => this.flyToWorst(),
         inside: this.inside,
         player,
         picture,
@@ -149,6 +170,7 @@ export class App {
 
   /** First contact with the core, at the start and after it was lost. */
   private async begin(): Promise<void> {
+    const plain = location.hash.length <= 1; // before the link is written
     this.refresh();
     try {
       const { version } = await this.stage.subject.begin();
@@ -159,6 +181,7 @@ export class App {
       return;
     }
     await this.applySettings();
+    if (plain && firstVisit() && !this.stage.player.still) this.stage.run.togglePlay();
   }
 
   /** Makes the page show what the settings say. */
@@ -239,6 +262,33 @@ export class App {
     this.refresh();
   }
 
+  /** Shows the cells within a range alone. */
+  private pick(measure: 'eta' | 'length', range: [number, number] | null): void {
+    const { inside } = this.settings;
+    const share = (value: number): number => (measure === 'length' ? value / (1 + value) : value);
+    const [low, high] = range ? range.map((value) => Math.min(1, Math.max(0, share(value)))) : [0, 1];
+    this.change({ inside: { ...inside, quality: { measure, low, high } } });
+  }
+
+  /** In 3D better cells are hidden, since they would be in the way. */
+  private flyToWorst(): void {
+    const { picture, player } = this.stage;
+    player.pause();
+    const worst = picture.worst('eta');
+    if (!worst) return;
+    if (player.mesh.dim === 3) {
+      const high = Math.min(1, Math.ceil(20 * worst.value + 1) / 20);
+      this.change({ inside: { ...this.settings.inside, quality: { measure: 'eta', low: 0, high } } });
+      this.inside.setOpen(true);
+    }
+    picture.pin(worst.cell);
+  }
+
+  private async toggleFullScreen(): Promise<void> {
+    if (document.fullscreenElement) return document.exitFullscreen();
+    await document.querySelector('.view')?.requestFullscreen().catch(() => undefined); // a frame may forbid it
+  }
+
   private toggleMark(mark: Mark): void {
     this.change({ marks: { ...this.settings.marks, [mark]: !this.settings.marks[mark] } });
   }
@@ -266,6 +316,7 @@ export class App {
     });
     this.tools.update({ marks: settings.marks, colouring: settings.colouring, dim });
     this.inside.update(settings.inside, dim);
+    this.indicators.setPicked(settings.inside.quality.measure, pickedRange(settings.inside.quality));
     this.tools.setLegend(legendOf(settings.colouring, picture.colours, player.iterations));
     this.start_.hidden = run.hasRun || subject.empty;
     this.indicators.setIrregular(player.atEnd && player.complete ? run.irregular : null);
@@ -282,6 +333,7 @@ export class App {
     if (this.stage.player.playing || this.stage.subject.empty) return;
     const link = this.link();
     this.history.record(link);
+    this.header.update(this.history);
     history.replaceState(null, '', `#${link}`);
   }
 
@@ -325,4 +377,10 @@ export class App {
     const lost = error instanceof LoadError || error instanceof CrashError;
     this.messages.show({ kind: 'error', text, ...(lost ? { action: this.restartAction() } : {}) });
   }
+}
+
+/** What is shown alone, in units of its measure. */
+function pickedRange({ measure, low, high }: Settings['inside']['quality']): [number, number] | null {
+  if (low <= 0 && high >= 1) return null;
+  return measure === 'length' ? [low / (1 - low), high < 1 ? high / (1 - high) : Infinity] : [low, high];
 }

@@ -15,6 +15,7 @@ export interface KeyHost {
   openFile(): void;
   help(): void;
   history: History;
+  worst(): void;
   run: RunControl;
   player: Player;
   picture: Picture;
@@ -66,6 +67,7 @@ export function keyActions(host: KeyHost): KeyActions {
     'Ctrl+z': () => host.history.undo(),
     'Ctrl+y': () => host.history.redo(),
     'Ctrl+Shift+z': () => host.history.redo(),
+    w: () => host.worst(),
     o: () => host.openFile(),
     '?': () => host.help(),
   };

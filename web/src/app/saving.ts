@@ -24,6 +24,18 @@ export async function saveShown(format: SaveFormat, stage: Stage): Promise<strin
     download(await picture.capture(), name);
     return name;
   }
+  if (format === 'svg') {
+    if (player.mesh.dim === 3) throw new Error('Only meshes of quadrilaterals are saved as a drawing.');
+    const { svgOf } = await import('../export/svg.ts');
+    download(new Blob([svgOf(picture.drawing())], { type: 'image/svg+xml' }), name);
+    return name;
+  }
+  if (format === 'webm') {
+    const { recordRun } = await import('../export/video.ts');
+    if (!picture.canvas) throw new Error('There is no picture to film: this browser gives no WebGL 2.');
+    download(await recordRun(player, picture.canvas), name);
+    return name;
+  }
   const last = player.complete && player.atEnd;
   const bytes = await workshop.call('write', { name, ...(last ? {} : { events: player.index }) });
   download(new Blob([bytes as Uint8Array<ArrayBuffer>], { type: 'application/octet-stream' }), name);

@@ -202,7 +202,7 @@ export class PillowMeshElement extends Base {
     root.adoptedStyleSheets = styleSheets();
     this.start = h(
       'button',
-      { type: 'button', class: 'start', part: 'start', 'aria-label': 'Play', onclick: () => this.play() },
+      { type: 'button', class: 'start', part: 'start', 'aria-label': 'Play', hidden: true, onclick: () => this.play() },
       icon('play'),
     );
     this.status = h('p', { class: 'problem', part: 'problem', role: 'alert', hidden: true });
@@ -218,7 +218,7 @@ export class PillowMeshElement extends Base {
     });
     this.transport.element.setAttribute('part', 'transport');
     this.transport.caption.setAttribute('part', 'caption');
-    const picture = h('div', { class: 'stage', part: 'stage' }, this.legend.element, this.start, this.status);
+    const picture = h('div', { class: 'stage', part: 'stage' }, this.legend.element, h('output', { class: 'pointed', part: 'pointed', hidden: true }), this.start, this.status);
     this.legend.element.setAttribute('part', 'legend');
     picture.prepend(h('div', { class: 'poster', part: 'poster' }, h('slot')));
     root.append(
@@ -244,6 +244,7 @@ export class PillowMeshElement extends Base {
       },
       root,
     );
+    this.showNothing();
     this.behave();
   }
 
@@ -279,6 +280,11 @@ export class PillowMeshElement extends Base {
         }),
       tell: (error) => this.tell(error),
     }));
+    const pointed = this.shadowRoot!.querySelector<HTMLElement>('.pointed')!;
+    stage.picture.onPoint = (sentence) => {
+      pointed.textContent = sentence;
+      pointed.hidden = sentence === null;
+    };
     stage.picture.onProblem = (sentence) => this.showProblem(sentence);
     this.shadowRoot!.querySelector('.poster')!.after(stage.picture.host);
     this.wake();
@@ -328,6 +334,20 @@ export class PillowMeshElement extends Base {
     } catch (error) {
       this.tell(new Error(`${src} could not be fetched: ${(error as Error).message}.`));
     }
+  }
+
+  /** The controls before anything is loaded. */
+  private showNothing(): void {
+    this.transport!.update({
+      events: [],
+      index: 0,
+      playing: false,
+      running: false,
+      pace: 'auto',
+      caption: this.getAttribute('aria-label') ?? '',
+      kind: null,
+      iteration: 1,
+    });
   }
 
   private refresh(): void {

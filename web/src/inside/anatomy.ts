@@ -1,7 +1,7 @@
 // What is known of the inside of a hexahedral mesh: computed when asked for, kept until the mesh changes.
 import type { ReplayMesh } from '../replay/replay_mesh.ts';
 import { irregularEdges, type IrregularEdges } from './irregular_edges.ts';
-import { cellDepths, scaledJacobians } from './measures.ts';
+import { cellDepths } from './measures.ts';
 import { facetNeighbours } from './neighbours.ts';
 
 export class Anatomy {
@@ -10,7 +10,6 @@ export class Anatomy {
   private shape = -1;
   private neighbours_: Int32Array | null = null;
   private depths_: { depths: Int32Array; deepest: number } | null = null;
-  private jacobians_: Float64Array | null = null;
   private irregular_: IrregularEdges | null = null;
 
   constructor(mesh: ReplayMesh) {
@@ -27,11 +26,6 @@ export class Anatomy {
     return (this.depths_ ??= cellDepths(this.mesh, neighbours));
   }
 
-  get jacobians(): Float64Array {
-    this.forgetOld();
-    return (this.jacobians_ ??= scaledJacobians(this.mesh));
-  }
-
   get irregular(): IrregularEdges {
     const { neighbours } = this;
     return (this.irregular_ ??= irregularEdges(this.mesh, neighbours));
@@ -41,7 +35,7 @@ export class Anatomy {
     const { mesh } = this;
     if (this.shape === mesh.changes) return;
     this.shape = mesh.changes;
-    this.jacobians_ = this.irregular_ = null;
+    this.irregular_ = null;
     if (this.connectivity === mesh.reconnections) return;
     this.connectivity = mesh.reconnections;
     this.neighbours_ = this.depths_ = null;

@@ -16,7 +16,8 @@ export interface Cut {
   thickness: number;
 }
 
-export const qualityMeasures = ['eta', 'jacobian'] as const;
+export const qualityMeasures = ['eta', 'jacobian', 'length'] as const;
+/** Shape, scaled Jacobian, and the metric length l of a cell's edges as l / (1 + l), so that it fits between 0 and 1. */
 export type QualityMeasure = (typeof qualityMeasures)[number];
 
 export const bodies = ['auto', 'solid', 'glass'] as const;
@@ -65,12 +66,19 @@ export function anglesOf([x, y, z]: readonly number[]): { turn: number; tilt: nu
   return { turn: turn === -180 ? 180 : turn, tilt };
 }
 
-/** 1 for each cell that is left. `depths` as of cellDepths; a cell whose quality is not known is kept. */
+export const isFiltered = ({ low, high }: Inside['quality']): boolean => low > 0 || high < 1;
+
+/** Whether a value passes. At its end a bound holds nothing back: cells worse than 0 and better than 1 exist. */
+export function passes({ low, high }: Inside['quality'], value: number): boolean {
+  return !((low > 0 && value < low) || (high < 1 && value > high));
+}
+
+/** 1 for each cell that is left. `depths` as of cellDepths; `faded`: cells that are filtered out. */
 export function keptCells(
   mesh: ReplayMesh,
-  { cut, peel, quality }: Inside,
+  { cut, peel }: Inside,
   depths: () => Int32Array,
-  measures: (measure: QualityMeasure) => Float64Array,
+  faded: (cell: number) => boolean,
 ): Uint8Array {
   const { cells, cellCount, points } = mesh;
   const kept = new Uint8Array(cellCount);
@@ -90,13 +98,7 @@ export function keptCells(
     const depth = depths();
     for (let c = 0; c < cellCount; ++c) if (depth[c] < peel) kept[c] = 0;
   }
-  if (quality.low > 0 || quality.high < 1) {
-    const values = measures(quality.measure);
-    // At its end a bound holds nothing back: cells worse than 0 and better than 1 exist.
-    const low = quality.low > 0 ? quality.low : -Infinity;
-    const high = quality.high < 1 ? quality.high : Infinity;
-    for (let c = 0; c < cellCount; ++c) if (values[c] < low || values[c] > high) kept[c] = 0;
-  }
+  for (let c = 0; c < cellCount; ++c) if (kept[c] && faded(c)) kept[c] = 0;
   return kept;
 
   function projections({ vertexCount }: ReplayMesh, [x, y, z]: [number, number, number]) {

@@ -1,4 +1,4 @@
-// What cells are peeled and filtered by: how far inside they lie, and their scaled Jacobian.
+// What cells are peeled, filtered and coloured by: how far inside they lie, their scaled Jacobian, their metric length.
 import type { ReplayMesh } from '../replay/replay_mesh.ts';
 import { hexFacets, outside } from './neighbours.ts';
 
@@ -39,6 +39,7 @@ export function cellDepths(mesh: ReplayMesh, neighbours: Int32Array): { depths: 
 /** The least, over the corners, of the Jacobian of the three edge vectors divided by their lengths, as the core's. */
 export function scaledJacobians(mesh: ReplayMesh): Float64Array {
   const { cells, cellCount, points } = mesh;
+  if (mesh.dim === 2) return scaledJacobians2(mesh);
   const result = new Float64Array(cellCount).fill(NaN);
   const edge = new Float64Array(9);
   for (let c = 0; c < cellCount; ++c) {
@@ -60,6 +61,49 @@ export function scaledJacobians(mesh: ReplayMesh): Float64Array {
       least = Math.min(least, lengths > 0 ? determinant / lengths : 0);
     }
     result[c] = least;
+  }
+  return result;
+}
+
+/** The same for quadrilaterals: the least sine of an angle. */
+function scaledJacobians2({ cells, cellCount, points }: ReplayMesh): Float64Array {
+  const result = new Float64Array(cellCount).fill(NaN);
+  for (let c = 0; c < cellCount; ++c) {
+    if (cells[4 * c] < 0) continue;
+    let least = Infinity;
+    for (let k = 0; k < 4; ++k) {
+      const at = 2 * cells[4 * c + k];
+      const p = 2 * cells[4 * c + (k ^ 1)];
+      const q = 2 * cells[4 * c + (k ^ 2)];
+      const [a, b, d, e] = [points[p] - points[at], points[p + 1] - points[at + 1], points[q] - points[at], points[q + 1] - points[at + 1]];
+      const sign = k === 0 || k === 3 ? 1 : -1;
+      const lengths = Math.sqrt((a * a + b * b) * (d * d + e * e));
+      least = Math.min(least, lengths > 0 ? (sign * (a * e - b * d)) / lengths : 0);
+    }
+    result[c] = least;
+  }
+  return result;
+}
+
+/** Geometric mean of the metric lengths of each cell's edges, given each edge once. NaN where edges are missing. */
+export function cellLengths(
+  { cells, cellCount, cornerCount, dim }: ReplayMesh,
+  edges: Int32Array,
+  lengths: Float64Array,
+): Float64Array {
+  const logs = new Map<number, number>();
+  const key = (a: number, b: number): number => (a < b ? a * 2 ** 26 + b : b * 2 ** 26 + a);
+  for (let e = 0; e < lengths.length; ++e) logs.set(key(edges[2 * e], edges[2 * e + 1]), Math.log(lengths[e]));
+  const result = new Float64Array(cellCount).fill(NaN);
+  const edgeCount = dim * (cornerCount / 2);
+  for (let c = 0; c < cellCount; ++c) {
+    const first = c * cornerCount;
+    if (cells[first] < 0) continue;
+    let sum = 0;
+    for (let axis = 0; axis < dim; ++axis)
+      for (let k = 0; k < cornerCount; ++k)
+        if (!(k & (1 << axis))) sum += logs.get(key(cells[first + k], cells[first + (k | (1 << axis))])) ?? NaN;
+    result[c] = Math.exp(sum / edgeCount);
   }
   return result;
 }

@@ -1,5 +1,6 @@
 // What a lesson has beside its text and its figures: questions with a check, buttons that drive a figure, the theme.
 import { PillowMeshElement } from '../element/pillow_mesh.ts';
+import { makeTagEditor } from './tag_editor.ts';
 
 /**
  * A question is a form of radio buttons whose right answer has the value "right"; what is said to an answer stands in
@@ -35,5 +36,6 @@ function listenToSetter(button: HTMLButtonElement): void {
 
 export function startLesson(): void {
   document.querySelectorAll<HTMLFormElement>('form.question').forEach(listenToQuestion);
+  document.querySelectorAll<HTMLElement>('.tag-editor').forEach(makeTagEditor);
   document.querySelectorAll<HTMLButtonElement>('button[data-set]').forEach(listenToSetter);
 }

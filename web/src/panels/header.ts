@@ -4,6 +4,9 @@ import { icon, type IconName } from '../ui/icons.ts';
 
 export interface HeaderActions {
   copyLink(): void;
+  embed(): void;
+  undo(): void;
+  redo(): void;
   save(what: SaveFormat): void;
   toggleTheme(): void;
   help(): void;
@@ -15,6 +18,8 @@ export const saveFormats = [
   { id: 'msh', label: 'Gmsh .msh', kind: 'mesh' },
   { id: 'mesh', label: 'Medit .mesh', kind: 'mesh' },
   { id: 'png', label: 'Picture .png', kind: 'other' },
+  { id: 'svg', label: 'Drawing .svg (quads)', kind: 'other' },
+  { id: 'webm', label: 'Film of the run .webm', kind: 'other' },
   { id: 'json', label: 'Report .json', kind: 'other' },
 ] as const;
 export type SaveFormat = (typeof saveFormats)[number]['id'];
@@ -29,7 +34,12 @@ function logo(): SVGSVGElement {
   );
 }
 
-export function makeHeader(actions: HeaderActions): HTMLElement {
+export interface Header {
+  element: HTMLElement;
+  update(state: { canUndo: boolean; canRedo: boolean }): void;
+}
+
+export function makeHeader(actions: HeaderActions): Header {
   const button = (name: IconName, label: string, action: () => void): HTMLButtonElement =>
     h(
       'button',
@@ -62,7 +72,10 @@ export function makeHeader(actions: HeaderActions): HTMLElement {
     menu.open = false;
     menu.querySelector('summary')?.focus();
   });
-  return h(
+  const undo = button('undo', 'Undo', actions.undo);
+  const redo = button('redo', 'Redo', actions.redo);
+  for (const once of [undo, redo]) once.querySelector('span')!.className = 'unseen';
+  const element = h(
     'header',
     { class: 'top' },
     h('h1', {}, logo(), 'pillowmesh'),
@@ -70,10 +83,20 @@ export function makeHeader(actions: HeaderActions): HTMLElement {
     h(
       'nav',
       { 'aria-label': 'Page' },
+      undo,
+      redo,
+      h('a', { class: 'plain', href: './lessons/index.html', title: 'Lessons' }, icon('book'), h('span', { class: 'wide-only' }, 'Lessons')),
       button('link', 'Copy link', actions.copyLink),
+      button('embed', 'Embed', actions.embed),
       menu,
       button('theme', 'Theme', actions.toggleTheme),
       button('help', 'Help', actions.help),
     ),
-  );
+  );  return {
+    element,
+    update({ canUndo, canRedo }) {
+      undo.setAttribute('aria-disabled', String(!canUndo));
+      redo.setAttribute('aria-disabled', String(!canRedo));
+    },
+  };
 }

@@ -12,7 +12,8 @@ const keys: readonly [string, string][] = [
   ['I', 'look inside a mesh of hexes'],
   ['X Y Z', 'cut it across an axis, then from the other side'],
   ['E', 'its irregular edges'],
-  ['F', 'show the whole mesh'],
+  ['F W', 'show the whole mesh, the worst cell'],
+  ['Ctrl+Z Ctrl+Y', 'undo, redo'],
   ['O', 'open a mesh file'],
   ['?', 'this help'],
 ];

@@ -12,6 +12,8 @@ export interface DisplayedNumbers {
 export interface Indicators {
   element: HTMLElement;
   setCase(name: string | null): void;
+  /** The range that is shown alone, by which measure. */
+  setPicked(measure: string, range: [number, number] | null): void;
   setIdealCells(count: number | null): void;
   /** Shown at the end of a run: from the report of the core. */
   setIrregular(count: number | null): void;
@@ -75,7 +77,14 @@ function fact(label: string, explanation: string): { element: HTMLElement; set(t
   };
 }
 
-export function makeIndicators(): Indicators {
+export interface IndicatorActions {
+  /** Cells whose measure is in the range are shown alone; null: all. */
+  pick(measure: 'eta' | 'length', range: [number, number] | null): void;
+  /** Flies to the cell with the worst shape. */
+  worst(): void;
+}
+
+export function makeIndicators(actions: IndicatorActions): Indicators {
   const range: [number, number] = [Math.SQRT1_2, Math.SQRT2];
   const cellCount = fact('Cells', 'Cells of the mesh as it is shown');
   const ideal = fact('Ideal', 'The integral of sqrt(det M) over the domain: how many unit cells would fill it');
@@ -94,6 +103,7 @@ export function makeIndicators(): Indicators {
     ticks: [1 / 16, 0.25, 0.5, 1, 2, 4, 16, 64],
     band: range,
     mark: 1,
+    pick: (picked) => actions.pick('length', picked),
   });
   const shapePlot = makeHistogram({
     label: 'shape eta',
@@ -101,6 +111,7 @@ export function makeIndicators(): Indicators {
     low: 0,
     high: 1,
     ticks: [0, 0.25, 0.5, 0.75, 1],
+    pick: (picked) => actions.pick('eta', picked),
   });
   const element = h(
     'aside',
@@ -113,7 +124,12 @@ export function makeIndicators(): Indicators {
     h('h3', {}, 'Shape ', h('i', {}, 'η'), h('span', { class: 'aim' }, 'aim: 1, a unit cell in the metric')),
     shapePlot.element,
     shapeTable.element,
-    h('p', { class: 'hint' }, 'cv is the standard deviation divided by the mean.'),
+    h('button', { type: 'button', class: 'mini worst', title: 'Fly there (W)', onclick: () => actions.worst() }, 'Worst cell'),
+    h(
+      'p',
+      { class: 'hint' },
+      'cv is the standard deviation divided by the mean. Drag over a histogram to show a range of cells alone; click it for all.',
+    ),
   );
 
   let name: string | null = null;
@@ -138,6 +154,10 @@ export function makeIndicators(): Indicators {
     setCase(next) {
       name = next;
       refresh();
+    },
+    setPicked(measure, picked) {
+      lengthPlot.setRange(measure === 'length' ? picked : null);
+      shapePlot.setRange(measure === 'eta' ? picked : null);
     },
     setIdealCells: (count) => ideal.set(count === null ? '–' : Math.round(count).toLocaleString('en')),
     setIrregular: (count) => irregular.set(count === null ? '–' : count.toLocaleString('en')),

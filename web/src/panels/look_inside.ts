@@ -36,7 +36,7 @@ export interface LookInside {
 
 const cutLabels: Record<CutKind, string> = { off: 'Off', plane: 'Plane', slab: 'Slab' };
 const bodyLabels: Record<Body, string> = { auto: 'Auto', solid: 'Solid', glass: 'Glass' };
-const measureLabels: Record<QualityMeasure, string> = { eta: 'Shape η', jacobian: 'Scaled Jacobian' };
+const measureLabels: Record<QualityMeasure, string> = { eta: 'Shape η', jacobian: 'Scaled Jacobian', length: 'Metric length' };
 const irregularLabels = ['3 or less', '5', '6 or more'];
 const percent = (share: number): string => `${Math.round(100 * share)} %`;
 const degrees = (angle: number): string => `${angle}°`;
@@ -137,11 +137,13 @@ export function makeLookInside(actions: LookInsideActions): LookInside {
     },
     ...qualityMeasures.map((m) => h('option', { value: m }, measureLabels[m])),
   );
-  const two = (x: number): string => x.toFixed(2);
-  const low = slider('From', { min: 0, max: 1, step: 0.01 }, two, (x) =>
+  /** A bound as the measure has it; a length is kept as l / (1 + l). */
+  const bound = (x: number): string =>
+    inside.quality.measure !== 'length' ? x.toFixed(2) : x < 1 ? (x / (1 - x)).toPrecision(2) : '∞';
+  const low = slider('From', { min: 0, max: 1, step: 0.01 }, bound, (x) =>
     change({ quality: { ...inside.quality, low: x, high: Math.max(x, inside.quality.high) } }),
   );
-  const high = slider('To', { min: 0, max: 1, step: 0.01 }, two, (x) =>
+  const high = slider('To', { min: 0, max: 1, step: 0.01 }, bound, (x) =>
     change({ quality: { ...inside.quality, high: x, low: Math.min(x, inside.quality.low) } }),
   );
 

@@ -8,6 +8,9 @@ export interface PictureToolActions {
   toggleMark(mark: Mark): void;
   setColouring(colouring: Colouring): void;
   fit(): void;
+  fullScreen(): void;
+  /** Looks at a mesh of hexahedra from here, from the mesh to the eye. */
+  lookFrom(direction: number[]): void;
   /** Opens the panel of hexahedral meshes. */
   inside: HTMLElement;
 }
@@ -27,8 +30,16 @@ const markLabels: Record<Mark, [label: string, explanation: string]> = {
   hull: ['Hull', 'Outline of the shrink set'],
   buffer: ['Buffer layer', 'Cells that fill the void'],
   ellipses: ['Metric', 'Ellipses as wide as a unit edge'],
+  isolines: ['Isolines', 'Lines of equal size, each twice as large as the next'],
+  irregular: ['Irregular', 'Inner vertices with other than four quads: a dot for fewer, a ring for more'],
 };
-const colouringLabels: Record<Colouring, string> = { plain: 'Plain', shape: 'Shape η', age: 'Age' };
+const colouringLabels: Record<Colouring, string> = {
+  plain: 'Plain',
+  shape: 'Shape η',
+  length: 'Length l',
+  jacobian: 'Jacobian',
+  age: 'Age',
+};
 
 /** A sample of the mark, drawn as in the picture. */
 function swatch(mark: Mark): SVGSVGElement {
@@ -43,9 +54,22 @@ function swatch(mark: Mark): SVGSVGElement {
     ellipses: [
       svg('ellipse', { cx: 9, cy: 8, rx: 6.5, ry: 3.6, transform: 'rotate(-25 9 8)', class: 'swatch-ellipse' }),
     ],
+    isolines: [svg('path', { d: 'M1 12C6 2 12 14 17 4M1 6.5C4 0 9 4 12 2', class: 'swatch-isoline' })],
+    irregular: [svg('circle', { cx: 5, cy: 8, r: 3.2, class: 'swatch-fewer' }), svg('circle', { cx: 13, cy: 8, r: 3.2, class: 'swatch-more' })],
   };
   return svg('svg', { viewBox: '0 0 18 16', width: 18, height: 16, 'aria-hidden': 'true' }, ...shapes[mark]);
 }
+
+/** From the mesh to the eye; seen exactly along z, up would be undefined. */
+const directions: readonly (readonly [name: string, direction: readonly [number, number, number]])[] = [
+  ['+x', [1, 0, 0]],
+  ['−x', [-1, 0, 0]],
+  ['+y', [0, 1, 0]],
+  ['−y', [0, -1, 0]],
+  ['+z', [0, -1e-4, 1]],
+  ['−z', [0, -1e-4, -1]],
+  ['aslant', [0.55, -0.72, 0.42]],
+];
 
 export function makePictureTools(actions: PictureToolActions): PictureTools {
   const chips = Object.fromEntries(
@@ -59,12 +83,30 @@ export function makePictureTools(actions: PictureToolActions): PictureTools {
       ),
     ]),
   ) as Record<Mark, HTMLButtonElement>;
-  const radios = Object.fromEntries(
-    colourings.map((c) => [
-      c,
-      h('input', { type: 'radio', name: 'colouring', value: c, onchange: () => actions.setColouring(c) }),
-    ]),
-  ) as Record<Colouring, HTMLInputElement>;
+  const colouring = h(
+    'select',
+    {
+      'aria-label': 'Colour of cells',
+      title: 'Colour of cells (C)',
+      onchange: () => actions.setColouring(colouring.value as Colouring),
+    },
+    ...colourings.map((c) => h('option', { value: c }, colouringLabels[c])),
+  );
+  const views = h(
+    'select',
+    {
+      'aria-label': 'View from',
+      title: 'View from',
+      hidden: true,
+      onchange: () => {
+        const direction = directions.find(([name]) => name === views.value);
+        if (direction) actions.lookFrom([...direction[1]]);
+        views.value = '';
+      },
+    },
+    h('option', { value: '' }, 'View'),
+    ...directions.map(([name]) => h('option', { value: name }, name)),
+  );
   const legend = makeLegend();
   const element = h(
     'div',
@@ -78,12 +120,8 @@ export function makePictureTools(actions: PictureToolActions): PictureTools {
     h(
       'div',
       { class: 'colouring' },
-      h(
-        'fieldset',
-        { class: 'segments' },
-        h('legend', { class: 'unseen' }, 'Colour of cells'),
-        ...colourings.map((c) => h('label', {}, radios[c], h('span', {}, colouringLabels[c]))),
-      ),
+      colouring,
+      views,
       h(
         'button',
         {
@@ -95,6 +133,17 @@ export function makePictureTools(actions: PictureToolActions): PictureTools {
         },
         icon('fit'),
       ),
+      h(
+        'button',
+        {
+          type: 'button',
+          class: 'round',
+          'aria-label': 'Full screen',
+          title: 'Full screen',
+          onclick: actions.fullScreen,
+        },
+        icon('full'),
+      ),
     ),
   );
   return {
@@ -102,8 +151,9 @@ export function makePictureTools(actions: PictureToolActions): PictureTools {
     legend: legend.element,
     update(state) {
       for (const mark of marks) chips[mark].setAttribute('aria-pressed', String(state.marks[mark]));
-      chips.ellipses.hidden = state.dim === 3;
-      radios[state.colouring].checked = true;
+      for (const mark of ['ellipses', 'isolines', 'irregular'] as const) chips[mark].hidden = state.dim === 3;
+      colouring.value = state.colouring;
+      views.hidden = state.dim === 2;
     },
     setLegend: legend.set,
   };

@@ -9,7 +9,7 @@ import workerUrl from '../../../wasm/worker.ts?worker&url';
 let pool: Pool | null = null;
 
 /** More workers than this would only share the same processors. */
-const most = Math.max(1, Math.min(3, (navigator.hardwareConcurrency ?? 2) - 1));
+const most = (): number => Math.max(1, Math.min(3, (navigator.hardwareConcurrency ?? 2) - 1));
 
 const absolute = (url: string): string => new URL(url, import.meta.url).href;
 
@@ -26,6 +26,6 @@ export function corePool(): Pool {
   return (pool ??= new Pool(
     () => (foreign ? importingWorker(address) : new Worker(address, { type: 'module' })),
     Promise.resolve(modules),
-    most,
+    most(),
   ));
 }

@@ -1,15 +1,21 @@
 // The picture and what belongs to it: loaded when needed, survives a browser without WebGL.
+import type { Measures } from '../../../wasm/protocol.ts';
 import type { MeshArrays } from '../../../wasm/session.ts';
-import { defaultInside, type Inside } from '../inside/look_inside.ts';
+import { defaultInside, isFiltered, passes, type Inside, type QualityMeasure } from '../inside/look_inside.ts';
+import { chordThrough, irregularVertices, neighboursOf, type Chord } from '../inside/chords.ts';
+import { cellLengths, scaledJacobians } from '../inside/measures.ts';
+import type { Drawing } from '../export/svg.ts';
 import { cellWord } from '../replay/caption.ts';
 import type { Player, Shown } from '../replay/player.ts';
 import { ReplayMesh } from '../replay/replay_mesh.ts';
 import { sceneAfter } from '../replay/scene.ts';
-import type { CameraPose, Colouring, Mark } from '../state/settings.ts';
+import { defaultMarks, type CameraPose, type Colouring, type Mark } from '../state/settings.ts';
 import { h } from '../ui/dom.ts';
 import { sampleEllipses } from '../viewport/ellipse_samples.ts';
+import { sampleIsolines } from '../viewport/isolines.ts';
 import { colourMaps, isDark, readPalette } from '../viewport/palette.ts';
 import type { InsideReport } from '../viewport/hex_body.ts';
+import { cellEdges, segmentsOf } from '../viewport/segments.ts';
 import type { Viewport } from '../viewport/viewport.ts';
 
 export interface Look {
@@ -24,17 +30,27 @@ export class Picture {
   onPose: () => void = () => undefined;
   /** Called with a sentence when drawing is impossible or comes back (null). */
   onProblem: (sentence: string | null) => void = () => undefined;
+  /** Called when something is to be drawn that was not sampled. */
+  onWish: () => void = () => undefined;
   /** Called with what there is to see of a hexahedral mesh; null in 2D. */
   onInside: (report: InsideReport | null) => void = () => undefined;
 
   private viewport: Viewport | null = null;
   private look: Look = {
     colouring: 'plain',
-    marks: { tags: true, layer: true, hull: true, buffer: true, ellipses: true },
+    marks: { ...defaultMarks },
     inside: defaultInside(),
   };
+  /** Of the mesh as it was measured last; cells made since are missing. */
   private shapes = new Float64Array(0);
+  private lengths = new Float64Array(0);
+  private jacobians = { changes: -1, values: new Float64Array(0) };
   private dark = false;
+  private pointed = -1;
+  private pinned = -1;
+  private neighbours: { mesh: ReplayMesh; changes: number; of: Int32Array } | null = null;
+  /** Called with what is told of the cell that is pointed at, null when there is none. */
+  onPoint: (sentence: string | null) => void = () => undefined;
   private lastPose: CameraPose | null = null;
   private readonly player: Player;
 
@@ -58,6 +74,7 @@ export class Picture {
       );
       return;
     }
+    this.listenToPointer();
     this.viewport.onPose = () => this.onPose();
     this.viewport.onContext = (lost) =>
       this.onProblem(lost ? 'The graphics driver has dropped the picture; it comes back when it can.' : null);
@@ -81,7 +98,8 @@ export class Picture {
   showAll(fit: boolean): void {
     const { mesh } = this.player;
     mesh.takeDirtyCells();
-    this.shapes = new Float64Array(0);
+    this.shapes = this.lengths = new Float64Array(0);
+    this.jacobians.changes = -1;
     this.host.setAttribute('aria-label', `A mesh of ${mesh.liveCellCount()} ${cellWord(mesh.dim, 2)}`);
     this.viewport?.setMesh(mesh, fit);
     this.applyLook();
@@ -108,16 +126,27 @@ export class Picture {
   }
 
   setLook(look: Look): void {
+    if (look.marks.isolines !== this.look.marks.isolines) this.onWish();
     this.look = { colouring: look.colouring, marks: { ...look.marks }, inside: look.inside };
     this.applyLook();
   }
 
-  /** Shapes of the cells, measured a moment ago; colours of cells made since are left out. */
-  setShapes(shapes: Float64Array<ArrayBuffer>): void {
-    this.shapes = shapes;
-    const { quality } = this.look.inside;
-    const filtered = quality.measure === 'eta' && (quality.low > 0 || quality.high < 1);
-    if (this.look.colouring === 'shape' || (filtered && this.player.mesh.dim === 3)) this.paint();
+  /** What was measured a moment ago; colours of cells made since are left out. */
+  setMeasures({ shapes, edges, lengths }: Measures): void {
+    this.shapes = shapes as Float64Array<ArrayBuffer>;
+    this.lengths = cellLengths(this.player.mesh, edges, lengths).map((l) => l / (1 + l));
+    const { colouring, inside } = this.look;
+    if (colouring === 'shape' || colouring === 'length' || isFiltered(inside.quality)) this.paint();
+  }
+
+  /** A measure of each cell, as far as it is known. */
+  measure(name: QualityMeasure): Float64Array {
+    if (name === 'eta') return this.shapes;
+    if (name === 'length') return this.lengths;
+    const { mesh } = this.player;
+    if (this.jacobians.changes !== mesh.changes)
+      this.jacobians = { changes: mesh.changes, values: scaledJacobians(mesh) as Float64Array<ArrayBuffer> };
+    return this.jacobians.values;
   }
 
   /** Samples and draws the metric ellipses over an initial mesh. */
@@ -125,10 +154,22 @@ export class Picture {
     const { mesh } = this.player;
     if (!this.viewport || initial.dim !== 2) return;
     const samples = await sampleEllipses(new ReplayMesh(initial), tensors);
-    if (mesh === this.player.mesh) this.viewport.setEllipses(samples.centres, samples.tensors);
+    if (mesh === this.player.mesh) this.viewport?.setEllipses(samples.centres, samples.tensors);
+    await this.refreshIsolines(initial, tensors);
+  }
+
+  private async refreshIsolines(
+    initial: MeshArrays,
+    tensors: (points: Float64Array) => Promise<Float64Array>,
+  ): Promise<void> {
+    const { mesh } = this.player;
+    const segments = this.look.marks.isolines ? await sampleIsolines(new ReplayMesh(initial), tensors) : new Float32Array(0);
+    if (mesh === this.player.mesh) this.viewport?.setIsolines(segments);
   }
 
   clearEllipses(): void {
+    this.pointed = this.pinned = -1;
+    this.viewport?.setIsolines(new Float32Array(0));
     this.viewport?.setEllipses(new Float64Array(0), new Float64Array(0));
   }
 
@@ -159,6 +200,10 @@ export class Picture {
     return this.viewport?.direction ?? null;
   }
 
+  lookFrom(direction: number[]): void {
+    this.viewport?.lookFrom(direction);
+  }
+
   fit(): void {
     this.viewport?.fit();
   }
@@ -166,6 +211,17 @@ export class Picture {
   capture(): Promise<Blob> {
     if (!this.viewport) return Promise.reject(new Error('There is no picture to save: this browser gives no WebGL 2.'));
     return this.viewport.capture(2);
+  }
+
+  /** What is drawn of a mesh of quadrilaterals, for export/svg.ts. */
+  drawing(): Drawing {
+    const { mesh, events, index } = this.player;
+    const palette = readPalette(this.host);
+    return { mesh, scene: sceneAfter(events, index), palette, colours: this.colours, value: this.valueOf(mesh) };
+  }
+
+  get canvas(): HTMLCanvasElement | null {
+    return this.viewport?.canvas ?? null;
   }
 
   private applyLook(): void {
@@ -178,14 +234,133 @@ export class Picture {
   private paint(): void {
     const { mesh, events, index } = this.player;
     this.viewport?.setEllipseStrength(index > 0 ? 0.42 : 1);
-    const report = this.viewport?.setScene(mesh, sceneAfter(events, index), this.valueOf(mesh), this.shapes);
+    const { quality } = this.look.inside;
+    const values = isFiltered(quality) ? this.measure(quality.measure) : null;
+    const faded = (cell: number): boolean => values !== null && !passes(quality, values[cell]);
+    this.drawIrregular();
+    const chords = this.pointedChords().map(({ cells }) => cells);
+    const report = this.viewport?.setScene(mesh, sceneAfter(events, index), this.valueOf(mesh), faded, chords);
     this.onInside(report ?? null);
   }
 
+  /** The cell with the least measure, and that; null before anything was measured. */
+  worst(name: QualityMeasure): { cell: number; value: number } | null {
+    const values = this.measure(name);
+    let [cell, value] = [-1, Infinity];
+    for (let c = 0; c < values.length; ++c) if (values[c] < value) [cell, value] = [c, values[c]];
+    return cell < 0 ? null : { cell, value };
+  }
+
+  /** Flies to a cell, draws around it, and tells its numbers. */
+  pin(cell: number): void {
+    const { mesh } = this.player;
+    const { dim, cornerCount } = mesh;
+    const corners = Array.from(mesh.cells.subarray(cornerCount * cell, cornerCount * (cell + 1)));
+    const middle = Array.from({ length: dim }, (_, d) =>
+      corners.reduce((sum, v) => sum + mesh.points[dim * v + d] / cornerCount, 0),
+    );
+    const reach = Math.max(
+      ...corners.map((v) => Math.hypot(...middle.map((x, d) => mesh.points[dim * v + d] - x))),
+    );
+    const { low, high } = mesh.bounds();
+    const size = Math.max(...low.map((x, d) => high[d] - x));
+    this.pinned = cell;
+    const direction = dim === 3 ? { direction: this.direction ?? undefined } : {};
+    this.pose = { target: middle, zoom: Math.max(1, size / (14 * reach)), ...direction } as CameraPose;
+    this.pointAt(cell);
+    this.onPose();
+  }
+
+  private listenToPointer(): void {
+    const { canvas } = this.viewport!;
+    let frame = 0;
+    const point = (event: PointerEvent): void => {
+      cancelAnimationFrame(frame);
+      if (event.pointerType === 'mouse' && event.buttons !== 0) return;
+      frame = requestAnimationFrame(() => {
+        if (this.viewport && !this.player.playing) this.pointAt(this.viewport.cellAt(event.clientX, event.clientY));
+      });
+    };
+    canvas.addEventListener('pointermove', (event) => event.pointerType === 'mouse' && point(event));
+    canvas.addEventListener('click', (event) => point(event as PointerEvent));
+    canvas.addEventListener('pointerleave', (event) => {
+      cancelAnimationFrame(frame);
+      if (event.pointerType === 'mouse') this.pointAt(-1);
+    });
+  }
+
+  private pointAt(cell: number): void {
+    if (cell === this.pointed) return;
+    this.pointed = cell;
+    this.paint();
+    this.onPoint(cell < 0 ? null : this.describe(cell));
+  }
+
+  private describe(cell: number): string {
+    const { dim } = this.player.mesh;
+    const chords = this.pointedChords();
+    const count = ({ cells, closed }: Chord): string => `${cells.length}${closed ? ' (closed)' : ''}`;
+    const t = this.lengths[cell];
+    const numbers = [
+      ['η', this.shapes[cell]],
+      ['l', t / (1 - t)],
+      ['scaled Jacobian', this.measure('jacobian')[cell]],
+    ]
+      .filter(([, value]) => Number.isFinite(value))
+      .map(([name, value]) => `${name} ${(value as number).toFixed(2)}`);
+    const many = cellWord(dim, 2);
+    return `${numbers.join(', ')}. ${dim === 2 ? 'Chords' : 'Sheets'} of ${chords.map(count).join(' and ')} ${many}.`;
+  }
+
+  /** Chords, in 3D two of the sheets, that cross in the cell pointed at. */
+  private pointedChords(): Chord[] {
+    const { mesh } = this.player;
+    const cell = this.pointed;
+    if (cell < 0 || cell >= mesh.cellCount || !mesh.alive(cell)) return [];
+    const axes = mesh.dim === 2 ? [0, 1] : [0, 1, 2];
+    return axes.map((axis) => chordThrough(mesh, this.neighboursNow(), cell, axis));
+  }
+
+  private neighboursNow(): Int32Array {
+    const { mesh } = this.player;
+    if (this.neighbours?.mesh !== mesh || this.neighbours.changes !== mesh.reconnections)
+      this.neighbours = { mesh, changes: mesh.reconnections, of: neighboursOf(mesh) };
+    return this.neighbours.of;
+  }
+
+  private drawIrregular(): void {
+    const { mesh } = this.player;
+    const wanted = this.look.marks.irregular && mesh.dim === 2;
+    const none = new Int32Array(0);
+    const [fewer, more] = wanted ? irregularVertices(mesh, this.neighboursNow()) : [none, none];
+    const points = (vertices: Int32Array): Float32Array =>
+      Float32Array.from([...vertices].flatMap((v) => [mesh.points[2 * v], mesh.points[2 * v + 1], 0]));
+    this.viewport?.setIrregular(points(fewer), points(more));
+    const pinned = this.pinned >= 0 && this.pinned < mesh.cellCount && mesh.alive(this.pinned);
+    this.viewport?.setPin(pinned ? segmentsOf(mesh, cellEdges(mesh, this.pinned)) : new Float32Array(0));
+  }
+
+  /** 0 to 1 for each cell, as its colour map has it; -1: no colour. */
   private valueOf(mesh: ReplayMesh): (cell: number) => number {
-    if (this.look.colouring === 'shape') return (cell) => this.shapes[cell] ?? -1;
-    if (this.look.colouring === 'plain') return () => -1;
-    const last = this.player.iterations;
-    return (cell) => mesh.birth[cell] / last;
+    const known = (value: number): number => (value >= 0 ? Math.min(1, value) : value < 0 ? 0 : -1);
+    switch (this.look.colouring) {
+      case 'plain':
+        return () => -1;
+      case 'shape':
+        return (cell) => known(this.shapes[cell]);
+      case 'jacobian': {
+        const values = this.measure('jacobian');
+        return (cell) => known(values[cell]);
+      }
+      case 'length':
+        return (cell) => {
+          const t = this.lengths[cell];
+          return known(Math.max(0, (Math.log2(t / (1 - t)) + 2) / 4));
+        };
+      case 'age': {
+        const last = this.player.iterations;
+        return (cell) => mesh.birth[cell] / last;
+      }
+    }
   }
 }

@@ -21,6 +21,7 @@ export interface RunHost {
 export class RunControl {
   /** Event to show as soon as it has been computed. */
   awaited: number | null = null;
+  private waiting: (() => void)[] = [];
   /** Irregular vertices of the adapted mesh; null before. */
   irregular: number | null = null;
 
@@ -39,9 +40,15 @@ export class RunControl {
     return this.player.events.length > 0 || this.workshop.running;
   }
 
+  /** Shows an event of the run that is under way as soon as it is there; settled then, or when it never will be. */
+  await(event: number): Promise<void> {
+    this.awaited = event;
+    return new Promise((resolve) => this.waiting.push(resolve));
+  }
+
   /** Nothing is awaited and nothing known of a run. */
   reset(): void {
-    this.awaited = null;
+    this.settle();
     this.irregular = null;
   }
 
@@ -62,6 +69,7 @@ export class RunControl {
     } catch (error) {
       player.pause();
       player.finish();
+      this.settle();
       host.setStatus('');
       host.tell(error);
       return null;
@@ -104,12 +112,17 @@ export class RunControl {
     this.host.done(result);
   }
 
+  private settle(): void {
+    this.awaited = null;
+    for (const resolve of this.waiting.splice(0)) resolve();
+  }
+
   private showAwaited(complete: boolean): void {
     if (this.awaited === null) return;
     const { player } = this;
     if (player.events.length < this.awaited && !complete) return;
     const index = Math.min(this.awaited, player.events.length);
-    this.awaited = null;
     player.seek(index);
+    this.settle();
   }
 }

@@ -55,6 +55,7 @@ export class Stage {
       done: (result) => host.done(result),
       tell: (error) => host.tell(error),
     });
+    this.picture.onWish = () => this.sampling.request(0);
     const tick = makeTicker(player);
     player.onShow = (shown) => {
       this.picture.show(shown);
@@ -126,7 +127,7 @@ export class Stage {
   async seek(event: number): Promise<void> {
     this.player.pause();
     if (event <= 0 || this.player.complete || event <= this.player.events.length) this.player.seek(event);
-    else if (this.run.hasRun) this.run.awaited = event;
+    else if (this.run.hasRun) await this.run.await(event);
     else await this.run.start({ show: event });
   }
 
@@ -171,7 +172,7 @@ export class Stage {
     ] as ArrayBuffer[]);
     if (mesh !== this.player.mesh) return;
     this.measures = measures;
-    this.picture.setShapes(measures.shapes as Float64Array<ArrayBuffer>);
+    this.picture.setMeasures(measures);
     this.host.measured(measures);
   }
 }

@@ -22,7 +22,14 @@ export function outcomeOf({ outcome, seconds }: RunResult, cells: number | undef
 
 export function legendOf(colouring: Colouring, colours: Uint8Array | null, iterations: number): LegendContent | null {
   if (!colours) return null;
-  return colouring === 'shape'
-    ? { colours, title: 'Shape η', low: '0 flat', high: '1 unit' }
-    : { colours, title: 'Made in iteration', low: 'initial', high: String(iterations) };
+  switch (colouring) {
+    case 'length':
+      return { colours, title: 'Metric length l', low: '¼ too short', high: '4 too long' };
+    case 'jacobian':
+      return { colours, title: 'Scaled Jacobian', low: '0 flat', high: '1 right angles' };
+    case 'age':
+      return { colours, title: 'Made in iteration', low: 'initial', high: String(iterations) };
+    default:
+      return { colours, title: 'Shape η', low: '0 flat', high: '1 unit' };
+  }
 }

@@ -2,8 +2,8 @@
 // cut=slab:90,0,0.5,0.2 peel=1 quality=eta:0,0.5 cells=glass edges=irregular
 import { bodies, cutKinds, defaultInside, qualityMeasures, type Inside } from '../inside/look_inside.ts';
 
-/** At most six digits. */
-export const number = (value: number): string => String(Number(value.toPrecision(6)));
+/** At most six digits; what rounding has left of a zero is one. */
+export const number = (value: number): string => String(Math.abs(value) < 1e-12 ? 0 : Number(value.toPrecision(6)));
 
 export function encodeInside({ cut, peel, quality, body, irregular }: Inside): Record<string, string> {
   const parts: Record<string, string> = {};

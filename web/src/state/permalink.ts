@@ -21,6 +21,7 @@ export const stateNames = [
   ...(Object.keys(optionDefaults) as OptionName[]),
   'colour',
   'hide',
+  'show',
   'cut',
   'peel',
   'quality',
@@ -55,8 +56,9 @@ export function encodeSettings(settings: Settings): string {
   for (const [name, value] of Object.entries(settings.options))
     if (value !== optionDefaults[name as OptionName]) query.set(name, value);
   if (settings.colouring !== standard.colouring) query.set('colour', settings.colouring);
-  const hidden = marks.filter((mark) => !settings.marks[mark]);
-  if (hidden.length) query.set('hide', hidden.join(','));
+  const switched = (to: boolean): string =>
+    marks.filter((mark) => settings.marks[mark] === to && standard.marks[mark] !== to).join(',');
+  for (const [name, list] of [['hide', switched(false)], ['show', switched(true)]]) if (list) query.set(name, list);
   for (const [name, value] of Object.entries(encodeInside(settings.inside))) query.set(name, value);
   if (settings.pace !== standard.pace) query.set('pace', settings.pace);
   if (settings.event !== null) query.set('event', settings.event === lastEvent ? 'last' : String(settings.event));
@@ -77,8 +79,10 @@ export function decodeSettings(fragment: string): Settings {
   for (const option of Object.keys(optionDefaults) as OptionName[])
     settings.options[option] = get(option) ?? optionDefaults[option];
   settings.colouring = colourings.find((c) => c === get('colour')) ?? settings.colouring;
-  for (const mark of (get('hide') ?? '').split(','))
-    if (mark in settings.marks) settings.marks[mark as never] = false as never;
+  for (const mark of marks) {
+    if ((get('hide') ?? '').split(',').includes(mark)) settings.marks[mark] = false;
+    if ((get('show') ?? '').split(',').includes(mark)) settings.marks[mark] = true;
+  }
   settings.pace = paces.find((p) => p === get('pace')) ?? settings.pace;
   settings.inside = decodeInside(get);
   const event = get('event') === 'last' ? lastEvent : Number.parseInt(get('event') ?? '', 10);

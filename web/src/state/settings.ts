@@ -19,12 +19,23 @@ export const optionDefaults = {
 export type OptionName = keyof typeof optionDefaults;
 export type Options = Record<OptionName, string>;
 
-export const colourings = ['plain', 'shape', 'age'] as const;
+/** By shape eta, metric length, scaled Jacobian, or the iteration that made the cell. */
+export const colourings = ['plain', 'shape', 'length', 'jacobian', 'age'] as const;
 export type Colouring = (typeof colourings)[number];
 
-export const marks = ['tags', 'layer', 'hull', 'buffer', 'ellipses'] as const;
+export const marks = ['tags', 'layer', 'hull', 'buffer', 'ellipses', 'isolines', 'irregular'] as const;
 /** What can be drawn on top of the mesh. */
 export type Mark = (typeof marks)[number];
+
+export const defaultMarks: Readonly<Record<Mark, boolean>> = {
+  tags: true,
+  layer: true,
+  hull: true,
+  buffer: true,
+  ellipses: true,
+  isolines: false,
+  irregular: false,
+};
 
 export const paces = ['auto', '0.5', '1', '2', '4', '16', '64'] as const;
 export type Pace = (typeof paces)[number];
@@ -61,7 +72,7 @@ export function defaultSettings(): Settings {
     formula: '',
     options: { ...optionDefaults },
     colouring: 'plain',
-    marks: { tags: true, layer: true, hull: true, buffer: true, ellipses: true },
+    marks: { ...defaultMarks },
     inside: defaultInside(),
     pace: 'auto',
     event: null,

@@ -7,6 +7,7 @@ import {
   DataTexture,
   DynamicDrawUsage,
   LinearFilter,
+  type Matrix4,
   Mesh,
   RGBAFormat,
   ShaderMaterial,
@@ -18,7 +19,7 @@ import type { Palette } from './palette.ts';
 import { faceFragmentShader, faceVertexShader } from './shaders.ts';
 
 /** How a face is marked; the numbers are known to the shader. */
-export const faceMarks = { none: 0, layer: 1, buffer: 2, cut: 3 } as const;
+export const faceMarks = { none: 0, layer: 1, buffer: 2, cut: 3, faded: 4, chord: 5, otherChord: 6 } as const;
 
 /** Where a vertex was before the change that is being shown; undefined: where it is. */
 export type Origins = (vertex: number) => ArrayLike<number> | undefined;
@@ -67,6 +68,9 @@ export class FaceLayer {
         layerColour: { value: new Color() },
         bufferColour: { value: new Color() },
         cutColour: { value: new Color() },
+        background: { value: new Color() },
+        chordColour: { value: new Color() },
+        otherChordColour: { value: new Color() },
       },
     });
     this.object = new Mesh(new BufferGeometry(), material);
@@ -81,6 +85,9 @@ export class FaceLayer {
     uniforms.layerColour.value.set(palette.layer);
     uniforms.bufferColour.value.set(palette.buffer);
     uniforms.cutColour.value.set(palette.cut);
+    uniforms.background.value.set(palette.background);
+    uniforms.chordColour.value.set(palette.chord);
+    uniforms.otherChordColour.value.set(palette.otherChord);
   }
 
   /** `colours`: 256 RGBA colours, or null for plain cells. */
@@ -155,6 +162,29 @@ export class FaceLayer {
       }
     }
     this.upload([this.paint], 'all', 8);
+  }
+
+  /** The cell drawn at a point in normalised device coordinates, or -1. `matrix`: projection times view. */
+  cellAt(x: number, y: number, matrix: Matrix4): number {
+    const to = this.to.array;
+    const e = matrix.elements;
+    const corner = new Float64Array(12);
+    let nearest = Infinity;
+    let found = -1;
+    for (let face = 0; face < this.count; ++face) {
+      if (!this.drawn[face]) continue;
+      for (let k = 0; k < 4; ++k) {
+        const at = 12 * face + 3 * k;
+        for (let d = 0; d < 3; ++d)
+          corner[3 * k + d] = e[d] * to[at] + e[4 + d] * to[at + 1] + e[8 + d] * to[at + 2] + e[12 + d];
+      }
+      const depth = (corner[2] + corner[5] + corner[8] + corner[11]) / 4;
+      if (depth < nearest && (holds(corner, 0, 1, 3, x, y) || holds(corner, 0, 3, 2, x, y))) {
+        nearest = depth;
+        found = this.faceCells ? this.faceCells[face] : face;
+      }
+    }
+    return found;
   }
 
   dispose(): void {
@@ -253,4 +283,12 @@ export class FaceLayer {
     geometry.setAttribute('facing', this.facing);
     this.object.geometry = geometry;
   }
+}
+
+/** Whether the triangle of three corners holds a point, from either side. */
+function holds(corner: Float64Array, a: number, b: number, c: number, x: number, y: number): boolean {
+  const side = (p: number, q: number): number =>
+    (corner[3 * q] - corner[3 * p]) * (y - corner[3 * p + 1]) - (corner[3 * q + 1] - corner[3 * p + 1]) * (x - corner[3 * p]);
+  const [u, v, w] = [side(a, b), side(b, c), side(c, a)];
+  return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
 }

@@ -28,8 +28,8 @@ export interface InsideReport {
 export interface Wishes {
   inside: Inside;
   shown: Record<Mark, boolean>;
-  /** Eta of each cell, as far as it is known. */
-  shapes: Float64Array;
+  /** Cells that are filtered out. */
+  faded: (cell: number) => boolean;
   /** Where vertices were before the change that is being shown. */
   origins?: Origins | undefined;
 }
@@ -81,18 +81,13 @@ export class HexBody {
     solid: FaceLayer,
     mesh: ReplayMesh,
     scene: Scene,
-    { inside, shown, shapes, origins }: Wishes,
+    { inside, shown, faded, origins }: Wishes,
   ): InsideReport {
     const start = performance.now();
     if (this.anatomy?.mesh !== mesh) this.anatomy = new Anatomy(mesh);
     const { anatomy } = this;
     this.object.visible = true;
-    const kept = keptCells(
-      mesh,
-      inside,
-      () => anatomy.depths.depths,
-      (measure) => (measure === 'eta' ? shapes : anatomy.jacobians),
-    );
+    const kept = keptCells(mesh, inside, () => anatomy.depths.depths, faded);
     const report: InsideReport = {
       kept: kept.reduce((sum, k) => sum + k, 0),
       total: mesh.liveCellCount(),

@@ -12,6 +12,9 @@ export interface Palette {
   hull: string;
   buffer: string;
   ellipse: string;
+  /** The two dual chords that cross in the cell pointed at. */
+  chord: string;
+  otherChord: string;
   /** Of irregular edges, in the order of irregularKinds. */
   irregular: readonly [string, string, string];
 }
@@ -57,6 +60,8 @@ export function readPalette(element: Element): Palette {
     ...colours,
     background: colours.picture,
     line: colours['mesh-line'],
+    chord: colours['one-more'],
+    otherChord: colours.fewer,
     irregular: [colours.fewer, colours['one-more'], colours['many-more']],
   };
 }
@@ -128,7 +133,27 @@ const age: Record<'light' | 'dark', readonly Anchor[]> = {
   ],
 };
 
+/** Metric length, 1/4 to 4 on a logarithmic scale: too short, right, too long. */
+const length: Record<'light' | 'dark', readonly Anchor[]> = {
+  light: [
+    [0.38, 0.12, 255],
+    [0.66, 0.1, 245],
+    [0.965, 0.008, 100],
+    [0.72, 0.13, 55],
+    [0.45, 0.14, 35],
+  ],
+  dark: [
+    [0.78, 0.12, 245],
+    [0.52, 0.1, 250],
+    [0.26, 0.012, 270],
+    [0.55, 0.11, 50],
+    [0.83, 0.13, 65],
+  ],
+};
+
 export const colourMaps = {
+  length: { light: colourMap(length.light), dark: colourMap(length.dark) },
+  jacobian: { light: colourMap(shape.light), dark: colourMap(shape.dark) },
   shape: { light: colourMap(shape.light), dark: colourMap(shape.dark) },
   age: { light: colourMap(age.light), dark: colourMap(age.dark) },
 } as const;

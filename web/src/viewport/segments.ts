@@ -29,6 +29,15 @@ export function facetEdges(dim: number, facets: Int32Array): Int32Array {
   return Int32Array.from([...edges.values()].flat());
 }
 
+/** The edges of one cell. */
+export function cellEdges({ cells, cornerCount, dim }: ReplayMesh, cell: number): Int32Array {
+  const edges: number[] = [];
+  for (let axis = 0; axis < dim; ++axis)
+    for (let k = 0; k < cornerCount; ++k)
+      if (!(k & (1 << axis))) edges.push(cells[cornerCount * cell + k], cells[cornerCount * cell + (k | (1 << axis))]);
+  return Int32Array.from(edges);
+}
+
 /** Edges of a quadrilateral mesh that one cell alone has. */
 export function boundaryEdges(mesh: ReplayMesh): Int32Array {
   const once = new Map<number, [number, number]>();

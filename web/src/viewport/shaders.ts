@@ -39,17 +39,24 @@ export const faceFragmentShader = /* glsl */ `
   uniform vec3 bufferColour;
   uniform vec3 cutColour;
   uniform float glass;
+  uniform vec3 background;
+  uniform vec3 chordColour;
+  uniform vec3 otherChordColour;
 
   void main() {
     bool isLayer = painted.y > 0.5 && painted.y < 1.5;
     bool isBuffer = painted.y > 1.5 && painted.y < 2.5;
-    bool isCut = painted.y > 2.5;
+    bool isCut = painted.y > 2.5 && painted.y < 3.5;
+    bool isFaded = painted.y > 3.5 && painted.y < 4.5;
+    bool isChord = painted.y > 4.5;
     vec3 colour = cellColour;
     if (coloured > 0.5 && painted.x >= 0.0)
       colour = texture2D(colours, vec2((painted.x * 255.0 + 0.5) / 256.0, 0.5)).rgb;
 
     else if (isCut)
       colour = cutColour;
+
+    if (isChord) colour = mix(colour, painted.y > 5.5 ? otherChordColour : chordColour, 0.5);
 
     // The layer is tinted, the buffer layer hatched: they differ without colour, too.
     if (isLayer) colour = mix(colour, layerColour, 0.42);
@@ -83,7 +90,8 @@ export const faceFragmentShader = /* glsl */ `
       if (isBuffer) colour = bufferColour;
       if (alpha < 0.004) discard;
     }
-    gl_FragColor = vec4(mix(colour, isBuffer && glass > 0.5 ? bufferColour : lineColour, line), alpha);
+    vec3 shown = mix(colour, isBuffer && glass > 0.5 ? bufferColour : lineColour, line);
+    gl_FragColor = vec4(isFaded ? mix(background, shown, 0.12) : shown, alpha);
     ${output}
   }
 `;

@@ -4,7 +4,7 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { defaultInside, type Inside } from '../inside/look_inside.ts';
 import type { ReplayMesh } from '../replay/replay_mesh.ts';
 import type { Scene } from '../replay/scene.ts';
-import type { CameraPose, Mark } from '../state/settings.ts';
+import { defaultMarks, type CameraPose, type Mark } from '../state/settings.ts';
 import { Ellipses } from './ellipses.ts';
 import { FaceLayer, faceMarks, type Origins } from './face_layer.ts';
 import { HexBody, type InsideReport } from './hex_body.ts';
@@ -36,6 +36,11 @@ export class Viewport {
   private readonly tags = new Strokes({ width: 4.2, trim: 0.16 }, 4);
   private readonly hull = new Strokes({ width: 2.6, dash: 9 }, 5);
   private readonly layerEdges = new Strokes({ width: 5.4, trim: 0.08 }, 6);
+  private readonly isolines = new Strokes({ width: 1.6, opacity: 0.85 }, 3);
+  /** Irregular vertices: dots where there are too few cells, rings where there are too many. */
+  private readonly fewer = new Strokes({ width: 5.5 }, 7);
+  private readonly more = [new Strokes({ width: 7 }, 7), new Strokes({ width: 3.4 }, 8)] as const;
+  private readonly pin = new Strokes({ width: 3.4 }, 9);
   private readonly host: HTMLElement;
   private readonly observer: ResizeObserver;
   private bounds = { low: [0, 0, 0], high: [1, 1, 1] };
@@ -45,7 +50,7 @@ export class Viewport {
   private moved = false;
   private frame = 0;
   private animation: { start: number; duration: number } | null = null;
-  private shown: Record<Mark, boolean> = { tags: true, layer: true, hull: true, buffer: true, ellipses: true };
+  private shown: Record<Mark, boolean> = { ...defaultMarks };
 
   /** Throws when the browser gives no WebGL 2. */
   constructor(host: HTMLElement) {
@@ -75,7 +80,12 @@ export class Viewport {
   }
 
   private get layers() {
-    return [this.faces, this.hexes, this.outline, this.ellipses, this.tags, this.hull, this.layerEdges];
+    return [this.faces, this.hexes, this.ellipses, ...this.strokes];
+  }
+
+  private get strokes() {
+    const { outline, tags, hull, layerEdges, isolines, fewer, more, pin } = this;
+    return [outline, tags, hull, layerEdges, isolines, fewer, ...more, pin];
   }
 
   setPalette(palette: Palette): void {
@@ -87,6 +97,11 @@ export class Viewport {
     this.layerEdges.setColour(palette.tag);
     this.hull.setColour(palette.hull);
     this.ellipses.setColour(palette.ellipse);
+    this.isolines.setColour(palette.ellipse);
+    this.pin.setColour(palette.outline);
+    this.fewer.setColour(palette.irregular[0]);
+    this.more[0].setColour(palette.irregular[2]);
+    this.more[1].setColour(palette.cell);
     this.requestRender();
   }
 
@@ -124,21 +139,26 @@ export class Viewport {
   }
 
   /**
-   * Colours and marks of the faces, and the strokes of what stands out. In 3D: which faces there are, too; `shapes`,
-   * eta of each cell, is what they are filtered by.
+   * Colours and marks of the faces, and the strokes of what stands out. In 3D: which faces there are, too. Cells that
+   * are `faded` are hardly seen, in 3D not at all.
    */
   setScene(
     mesh: ReplayMesh,
     scene: Scene,
     value: (cell: number) => number,
-    shapes: Float64Array,
+    faded: (cell: number) => boolean,
+    chords: readonly Int32Array[],
   ): InsideReport | null {
     const { inside, shown, origins } = this;
     const report =
-      mesh.dim === 3 ? this.hexes.rebuild(this.faces, mesh, scene, { inside, shown, shapes, origins }) : null;
+      mesh.dim === 3 ? this.hexes.rebuild(this.faces, mesh, scene, { inside, shown, faded, origins }) : null;
     const mark = new Uint8Array(mesh.cellCount);
     if (this.shown.layer) for (const c of scene.layer) mark[c] = faceMarks.layer;
     if (this.shown.buffer) for (const c of scene.buffer) mark[c] = faceMarks.buffer;
+    chords.forEach((cells, i) => {
+      for (const c of cells) mark[c] = i === 0 ? faceMarks.chord : faceMarks.otherChord;
+    });
+    if (mesh.dim === 2) for (let c = 0; c < mesh.cellCount; ++c) if (faded(c)) mark[c] = faceMarks.faded;
     this.faces.paintCells(value, mark);
     if (report) this.hexes.paintCells(value, mark);
     const none = new Int32Array(0);
@@ -184,6 +204,43 @@ export class Viewport {
   setEllipses(centres: Float64Array, tensors: Float64Array): void {
     this.ellipses.set(centres, tensors);
     this.setMarks(this.shown);
+  }
+
+  setIsolines(segments: Float32Array): void {
+    this.isolines.setSegments(segments);
+    this.requestRender();
+  }
+
+  /** Points of irregular vertices, three coordinates each. */
+  setIrregular(fewer: Float32Array, more: Float32Array): void {
+    const dots = (points: Float32Array): Float32Array =>
+      Float32Array.from({ length: 2 * points.length }, (_, i) => points[3 * Math.floor(i / 6) + (i % 3)]);
+    this.fewer.setSegments(dots(fewer));
+    for (const strokes of this.more) strokes.setSegments(dots(more));
+    this.requestRender();
+  }
+
+  /** Draws around one cell, e.g. the worst; six coordinates per edge. */
+  setPin(segments: Float32Array): void {
+    this.pin.setSegments(segments);
+    this.requestRender();
+  }
+
+  /** The cell that is drawn at a point of the window; -1 for none. */
+  cellAt(clientX: number, clientY: number): number {
+    const box = this.canvas.getBoundingClientRect();
+    const x = (2 * (clientX - box.left)) / box.width - 1;
+    const y = 1 - (2 * (clientY - box.top)) / box.height;
+    this.camera.updateMatrixWorld();
+    const matrix = this.camera.projectionMatrix.clone().multiply(this.camera.matrixWorldInverse);
+    return this.faces.cellAt(x, y, matrix);
+  }
+
+  /** Looks at a mesh of hexahedra along a direction, from the mesh to the eye. */
+  lookFrom(direction: number[]): void {
+    this.moved = true;
+    this.pose({ target: this.controls.target.toArray(), zoom: this.camera.zoom, direction });
+    this.onPose();
   }
 
   /** Shows the whole mesh. */
@@ -275,8 +332,7 @@ export class Viewport {
   private setPixelRatio(ratio: number): void {
     this.renderer.setPixelRatio(ratio);
     const { width, height } = this.canvas;
-    const { outline, tags, hull, layerEdges, hexes } = this;
-    for (const strokes of [outline, tags, hull, layerEdges, ...hexes.strokes])
+    for (const strokes of [...this.strokes, ...this.hexes.strokes])
       strokes.setResolution(width, height, ratio);
     this.faces.setLineWidth(1.15 * ratio);
     this.hexes.setLineWidth(1.15 * ratio);
