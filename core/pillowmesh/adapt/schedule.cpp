@@ -14,16 +14,17 @@ constexpr int kRelaxSweeps = 5;
 struct Budget {
   int hot_passes;
   double hot, cool;
+  int rows_every;  ///< hot pass rows are removed and doubled
   int cold_passes, polish_rounds;
   int relax_sweeps, settle_sweeps;
 };
 Budget budget_of(Effort effort) {
   switch (effort) {
-    case Effort::fast: return {0, 0.0, 0.0, 1, 0, 4, 4};
-    case Effort::normal: return {12, 0.4, 0.1, 6, 2, 20, 40};
+    case Effort::fast: return {2, 0.3, 0.15, 1, 1, 0, 4, 6};
+    case Effort::normal: return {12, 0.4, 0.1, 2, 6, 2, 20, 40};
     case Effort::best: break;
   }
-  return {100, 0.6, 0.1, 20, 6, 40, 150};
+  return {100, 0.6, 0.1, 5, 20, 6, 40, 150};
 }
 
 /// Weight of alignment in the energy when the option asks for all of it.
@@ -109,7 +110,8 @@ void Schedule::next_pass() {
 
 void Schedule::end_pass() {
   const bool cold = pass_ >= hot_passes_;
-  const std::int64_t chords = cold || pass_ == 0 ? search_.chord_pass() : 0;
+  const bool rows = cold || pass_ % budget_of(options_.effort).rows_every == 0;
+  const std::int64_t chords = rows ? search_.chord_pass() : 0;
   ++pass_;
   if (cold && search_.kept() + chords == 0) pass_ = hot_passes_ + cold_passes_;
   stage_ = Stage::after_pass;
