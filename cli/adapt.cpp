@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cli/commands.h"
+#include "cli/fields.h"
 #include "cli/problem.h"
 #include "cli/process.h"
 #include "cli/terminal.h"
@@ -94,6 +95,8 @@ template <int Dim>
 int adapt_mesh(Mesh<Dim> mesh, const AdaptFlags& flags, double read_seconds) {
   auto field = problem_metric<Dim>(flags.problem, mesh);
   if (!field) return fail(field.status());
+  const auto solution = load_fields(flags);
+  if (!solution) return fail(solution.status());
   StepFiles steps(flags.steps);
   if (Status s = steps.prepare(); !s.ok()) return fail(s);
 
@@ -124,8 +127,9 @@ int adapt_mesh(Mesh<Dim> mesh, const AdaptFlags& flags, double read_seconds) {
   const Status& outcome = adapter.outcome();
   if (outcome.code == StatusCode::bad_input || outcome.code == StatusCode::usage) return fail(outcome);
 
+  std::string carried;
   if (!flags.output.empty())
-    if (Status s = write_mesh_file(adapter.mesh(), flags.output, flags.write); !s.ok()) return fail(s);
+    if (Status s = write_with_fields(adapter.mesh(), *solution, flags, carried); !s.ok()) return fail(s);
   const double write_seconds = clock.lap();
 
   Report report = measure(adapter.mesh(), *field);
@@ -139,6 +143,7 @@ int adapt_mesh(Mesh<Dim> mesh, const AdaptFlags& flags, double read_seconds) {
   report.peak_memory_bytes = peak_memory();
   if (Status s = write_report(report, flags.report); !s.ok()) return fail(s);
   if (print) std::fputs(table(report, &initial).c_str(), stdout);
+  if (print && !carried.empty()) std::printf("%s\n", carried.c_str());
   if (!outcome.ok()) return fail(outcome);
   if (target > 0.0 && std::fabs(live_cells(adapter.mesh()) / target - 1.0) > 0.05)
     return fail(Status::limit_not_met("the mesh has " + std::to_string(report.cells) +

@@ -35,6 +35,8 @@ struct AdaptFlags {
   AdaptOptions options;
   WriteOptions write;
   std::string output;
+  std::string solution;  ///< a .sol of the input
+  bool fields = true;    ///< carry the arrays of a VTK input
   std::string steps;   ///< folder for one file per iteration
   std::string report;  ///< file, or "-"
   bool quiet = false;

@@ -190,6 +190,10 @@ int run(int argc, char** argv) {
   adapt_app->add_option("-o,--output", adapt_flags.output, "Adapted mesh; its ending chooses the format")
       ->type_name("OUT");
   add_write(*adapt_app, adapt_flags.write, adapt_gmsh);
+  adapt_app->add_option("--solution", adapt_flags.solution,
+                        "Carry the fields of this .sol at the input's vertices: to a .sol beside OUT, or into a VTK file")
+      ->type_name("F.sol");
+  adapt_app->add_flag("!--no-fields", adapt_flags.fields, "Do not carry the arrays of a VTK input to a VTK output");
   adapt_app
       ->add_option("--steps", adapt_flags.steps,
                    "Write the mesh after each iteration, and the last: DIR/step-000.vtu, ...")

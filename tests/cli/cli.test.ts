@@ -459,3 +459,49 @@ describe('adapt', () => {
     expect(onTerminal(' --quiet').stdout).toBe('');
   });
 });
+
+describe('boundaries and fields', () => {
+  const radii = (mesh: string) => {
+    const lines = readFileSync(mesh, 'utf8').split('\n');
+    const first = lines.indexOf('Vertices') + 2;
+    const count = Number(lines[first - 1]);
+    const points = lines.slice(first, first + count).map((line) => line.split(' ').map(Number));
+    return points.map(([x = 0, y = 0]) => Math.hypot(x - 1.2, y - 1));
+  };
+
+  test('smooth geometry puts a hole on its circle, linear geometry on the polygon of the input', () => {
+    const adapt = (geometry: string) => {
+      const out = file(`hole-${geometry}.mesh`);
+      ok('adapt', data('plate_hole_v4.msh'), '--metric', 'h = 0.1', '--effort', 'fast', '--geometry', geometry, '-o', out, '-q');
+      return Math.min(...radii(out));
+    };
+    expect(adapt('smooth')).toBeCloseTo(0.4, 12);
+    expect(adapt('linear')).toBeLessThan(0.39);
+    refused(2, ['adapt', 'grid:2,2:0,1,0,1', '--metric', 'h = 1', '--geometry', 'round'], '--geometry', "'round'");
+  });
+
+  test('a frozen group keeps its edges; a group that is not there is named with those that are', () => {
+    const out = file('frozen.mesh');
+    refused(
+      1,
+      ['adapt', data('lshape_v4.msh'), '--metric', 'h = 0.09', '--freeze', 'inflow', '-o', out, '-q'],
+      'edges are longer than the threshold, but frozen',
+    );
+    expect(readFileSync(out, 'utf8')).toContain('RequiredEdges');
+    refused(2, ['adapt', data('lshape_v4.msh'), '--metric', 'h = 1', '--freeze', 'outlet'], 'outlet', 'inflow');
+  });
+
+  test('fields of a VTK file go to the adapted one, unless they are not wanted', () => {
+    const square = file('field.vtk');
+    writeFileSync(
+      square,
+      '# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 1 1 0 0 1 0\n' +
+        'CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\nPOINT_DATA 4\nSCALARS heat double 1\nLOOKUP_TABLE default\n0 1 3 2\n',
+    );
+    const told = ok('adapt', square, '--metric', 'h = 0.3', '-o', file('field-out.vtu'));
+    expect(told).toContain('carried 1 field of points');
+    expect(readFileSync(file('field-out.vtu'), 'utf8')).toContain('Name="heat"');
+    ok('adapt', square, '--metric', 'h = 0.3', '-o', file('field-none.vtu'), '--no-fields');
+    expect(readFileSync(file('field-none.vtu'), 'utf8')).not.toContain('heat');
+  });
+});

@@ -151,23 +151,23 @@ TEST_CASE("required entities of a Medit file stay, and are required in what is w
 }
 
 TEST_CASE("a patch of a hex mesh, and hexahedra, stay while others are refined") {
-  const auto face = primitive<3>("grid:4,4,4:0,1,0,1,0,1", {"zmax"});
-  CHECK(face.frozen->facets.size() == 16);
-  CHECK(face.frozen->edges.size() == 40);
-  for (const char* formula : {"h = .12", "h1 = .1; h2 = .1; h3 = .3", "h = .05 + .2*z"}) {
+  const auto face = primitive<3>("grid:3,3,3:0,1,0,1,0,1", {"zmax"});
+  CHECK(face.frozen->facets.size() == 9);
+  CHECK(face.frozen->edges.size() == 24);
+  for (const char* formula : {"h = .16", "h1 = .15; h2 = .15; h3 = .4", "h = .14 + .2*z"}) {
     INFO(formula);
     const auto after = adapted(face, formula);
     check_kept(face, after);
-    CHECK(after.cell_count() > 64);
+    CHECK(after.cell_count() > 27);
   }
-  auto input = to_input(make_grid<3>({5, 5, 5}, Point<3>(0, 0, 0), Point<3>(1, 1, 1)));
-  input.required_cells = {62};  // in the middle
-  input.required_facets = {{0, 1, 6, 7}};
+  auto input = to_input(make_grid<3>({3, 3, 3}, Point<3>(0, 0, 0), Point<3>(1, 1, 1)));
+  input.required_cells = {13};  // in the middle
+  input.required_facets = {{0, 1, 4, 5}};
   const auto hexes = *make_mesh(input);
   CHECK(hexes.frozen->facets.size() == 7);
-  const auto after = adapted(hexes, "h = .09");
+  const auto after = adapted(hexes, "h = .15");
   check_kept(hexes, after);
-  CHECK(after.cell_count() > 250);
+  CHECK(after.cell_count() > 60);
 }
 
 TEST_CASE("what is asked to be frozen has to be there") {

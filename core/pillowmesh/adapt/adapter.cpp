@@ -143,7 +143,7 @@ struct Adapter<Dim>::State {
     const Stopwatch watch(refine_seconds);
     report_progress("finding long edges");
     seeds = tagging.tag_long_edges(mesh, target, tags);
-    drop_frozen_tags();
+    drop_frozen_tags(mesh, tags, seeds);
     if (smoothed && seeds.empty()) {
       stage = Stage::done;
       report_progress("done");
@@ -172,7 +172,7 @@ struct Adapter<Dim>::State {
     smoothed = false;
     balance_tags<Dim>(mesh, tags, seeds);
     tagging.collect_tagged_cells(mesh, tags, seeds);
-    drop_frozen_tags();
+    drop_frozen_tags(mesh, tags, seeds);
     recorder.tags(mesh, tags, iteration, options.record ? longest_edge() : 0.0);
     next_seed = 0;
     first_new = mesh.cell_count();
@@ -250,15 +250,6 @@ struct Adapter<Dim>::State {
     } else {
       stage = Stage::tag;
     }
-  }
-
-  /// Frozen edges cannot be refined.
-  void drop_frozen_tags() {
-    if (!mesh.frozen) return;
-    for (const CellId c : seeds)
-      for (int e = 0; e < Cell<Dim>::edges; ++e)
-        if (tags.has(c, e) && is_frozen_edge(mesh, {c, e})) clear_tag(mesh, tags, {c, e});
-    std::erase_if(seeds, [&](CellId c) { return tags.mask[c] == 0; });
   }
 
   /// limit_not_met when frozen edges are too long.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "pillowmesh/mesh/frozen.h"
 #include "pillowmesh/metric/length.h"
 
 namespace pillowmesh {
@@ -103,6 +104,17 @@ void Tagging<Dim>::collect_tagged_cells(const Mesh<Dim>& mesh, const EdgeTags<Di
   sort_marked(cells, seen);
 }
 
+template <int Dim>
+void drop_frozen_tags(const Mesh<Dim>& mesh, EdgeTags<Dim>& tags, std::vector<CellId>& cells) {
+  if (!mesh.frozen) return;
+  for (const CellId c : cells)
+    for (int e = 0; e < Cell<Dim>::edges; ++e)
+      if (tags.has(c, e) && is_frozen_edge(mesh, {c, e})) clear_tag(mesh, tags, {c, e});
+  std::erase_if(cells, [&](CellId c) { return tags.mask[c] == 0; });
+}
+
+template void drop_frozen_tags(const Mesh<2>&, EdgeTags<2>&, std::vector<CellId>&);
+template void drop_frozen_tags(const Mesh<3>&, EdgeTags<3>&, std::vector<CellId>&);
 template class Tagging<2>;
 template class Tagging<3>;
 

@@ -34,4 +34,8 @@ class Tagging {
   std::vector<typename EdgeTags<Dim>::Mask> measured_;  ///< edges that this call has seen
 };
 
+/// Takes the tags off frozen edges, which cannot be refined, and off the list the cells that are left without.
+template <int Dim>
+void drop_frozen_tags(const Mesh<Dim>& mesh, EdgeTags<Dim>& tags, std::vector<CellId>& cells);
+
 }  // namespace pillowmesh

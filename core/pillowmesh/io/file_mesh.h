@@ -26,6 +26,7 @@ struct Elements {
   std::vector<std::array<Index, N>> vertices;
   std::vector<Index> tag;   ///< physical group or reference; 0: none
   std::vector<Index> line;  ///< line of the file; empty for binary files
+  std::vector<Index> place;  ///< among the file's cells of all kinds; VTK only
 };
 
 /// Elements that pillowmesh cannot adapt: counted, so that the message can tell.
@@ -58,10 +59,12 @@ struct FileMesh {
   };
   std::vector<Name> names;
   std::vector<Foreign> foreign;
+  std::vector<FieldArray> fields;  ///< VTK, when asked for; those of cells for the file's cells of all kinds
 };
 
-/// All that a file says, before any check; the ending of `name` chooses the format.
-Expected<FileMesh> read_file_mesh(std::string_view name, std::span<const char> bytes);
+/// All that a file says, before any check; the ending of `name` chooses the format. With `fields` the arrays of VTK files
+/// too.
+Expected<FileMesh> read_file_mesh(std::string_view name, std::span<const char> bytes, bool fields = false);
 
 void add_foreign(FileMesh& mesh, std::string_view what, std::int64_t line);
 

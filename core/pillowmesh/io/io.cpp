@@ -45,7 +45,7 @@ std::string unknown_ending(std::string_view name) {
 
 }  // namespace
 
-Expected<FileMesh> read_file_mesh(std::string_view name, std::span<const char> bytes) {
+Expected<FileMesh> read_file_mesh(std::string_view name, std::span<const char> bytes, bool fields) {
   const Format format = format_of(name);
   if (format == Format::unknown) return Status::bad_input(unknown_ending(name));
   if (bytes.empty()) return Status::bad_input(std::string(name) + ": the file is empty");
@@ -62,10 +62,10 @@ Expected<FileMesh> read_file_mesh(std::string_view name, std::span<const char> b
       mesh = read_gmsh(source);
       break;
     case Format::vtk:
-      mesh = read_vtk(source);
+      mesh = read_vtk(source, fields);
       break;
     case Format::vtu:
-      mesh = read_vtu(source);
+      mesh = read_vtu(source, fields);
       break;
     case Format::unknown:
       break;
@@ -126,9 +126,12 @@ void write_to(Sink& sink, MeshInput<Dim> input, std::string_view name, const Wri
 }  // namespace
 
 template <int Dim>
-Status write_mesh_to(Sink& sink, const Mesh<Dim>& mesh, std::string_view name, const WriteOptions& options) {
+Status write_mesh_to(Sink& sink, const Mesh<Dim>& mesh, std::string_view name, const WriteOptions& options,
+                     std::vector<FieldArray> fields) {
   if (Status s = check_writable(name, options); !s.ok()) return s;
-  write_to(sink, to_input(mesh), name, options);
+  auto input = to_input(mesh);
+  input.fields = std::move(fields);
+  write_to(sink, std::move(input), name, options);
   return {};
 }
 
@@ -153,8 +156,8 @@ Expected<std::string> write_mesh(const AnyMesh& mesh, std::string_view name, con
 
 template Expected<std::string> write_input(MeshInput<2>, std::string_view, const WriteOptions&);
 template Expected<std::string> write_input(MeshInput<3>, std::string_view, const WriteOptions&);
-template Status write_mesh_to(Sink&, const Mesh<2>&, std::string_view, const WriteOptions&);
-template Status write_mesh_to(Sink&, const Mesh<3>&, std::string_view, const WriteOptions&);
+template Status write_mesh_to(Sink&, const Mesh<2>&, std::string_view, const WriteOptions&, std::vector<FieldArray>);
+template Status write_mesh_to(Sink&, const Mesh<3>&, std::string_view, const WriteOptions&, std::vector<FieldArray>);
 template Expected<std::string> write_mesh(const Mesh<2>&, std::string_view, const WriteOptions&);
 template Expected<std::string> write_mesh(const Mesh<3>&, std::string_view, const WriteOptions&);
 

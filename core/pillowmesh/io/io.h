@@ -47,9 +47,11 @@ Status check_writable(std::string_view name, const WriteOptions& options = {});
 template <int Dim>
 Expected<std::string> write_input(MeshInput<Dim> input, std::string_view name, const WriteOptions& options = {});
 
-/// Writes piece by piece, so that memory does not grow by the size of the file.
+/// Writes piece by piece, so that memory does not grow by the size of the file. `fields` go into VTK files; their values
+/// are of live vertices and cells in order, as `carry` gives them.
 template <int Dim>
-Status write_mesh_to(Sink& sink, const Mesh<Dim>& mesh, std::string_view name, const WriteOptions& options = {});
+Status write_mesh_to(Sink& sink, const Mesh<Dim>& mesh, std::string_view name, const WriteOptions& options = {},
+                     std::vector<FieldArray> fields = {});
 
 /// The bytes of a mesh file; the ending of `name` chooses the format. The same mesh gives the same bytes everywhere.
 /// Cells, then boundary facets with their groups; names of groups survive in .msh and .vtu files.
@@ -61,7 +63,8 @@ Expected<std::string> write_mesh(const Mesh<Dim>& mesh, std::string_view name, c
 /// \return bad_input with the system's reason when the file cannot be written.
 Status write_mesh_file(const AnyMesh& mesh, const std::string& path, const WriteOptions& options = {});
 template <int Dim>
-Status write_mesh_file(const Mesh<Dim>& mesh, const std::string& path, const WriteOptions& options = {});
+Status write_mesh_file(const Mesh<Dim>& mesh, const std::string& path, const WriteOptions& options = {},
+                       std::vector<FieldArray> fields = {});
 
 /// Writes `text` in the same safe way.
 Status write_text_file(std::string_view text, const std::string& path);

@@ -70,9 +70,10 @@ Expected<AnyMesh> read_mesh_file(const std::string& path, const BoundaryOptions&
 }
 
 template <int Dim>
-Status write_mesh_file(const Mesh<Dim>& mesh, const std::string& path, const WriteOptions& options) {
+Status write_mesh_file(const Mesh<Dim>& mesh, const std::string& path, const WriteOptions& options,
+                       std::vector<FieldArray> fields) {
   if (Status s = check_writable(path, options); !s.ok()) return s;
-  return write_safely(path, [&](Sink& sink) { return write_mesh_to(sink, mesh, path, options); });
+  return write_safely(path, [&](Sink& sink) { return write_mesh_to(sink, mesh, path, options, std::move(fields)); });
 }
 
 Status write_mesh_file(const AnyMesh& mesh, const std::string& path, const WriteOptions& options) {
@@ -86,7 +87,7 @@ Status write_text_file(std::string_view text, const std::string& path) {
   });
 }
 
-template Status write_mesh_file(const Mesh<2>&, const std::string&, const WriteOptions&);
-template Status write_mesh_file(const Mesh<3>&, const std::string&, const WriteOptions&);
+template Status write_mesh_file(const Mesh<2>&, const std::string&, const WriteOptions&, std::vector<FieldArray>);
+template Status write_mesh_file(const Mesh<3>&, const std::string&, const WriteOptions&, std::vector<FieldArray>);
 
 }  // namespace pillowmesh

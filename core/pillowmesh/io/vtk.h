@@ -11,10 +11,10 @@
 namespace pillowmesh {
 
 /// Legacy unstructured grids, versions 1 to 5, ASCII and binary. Groups come from an integer cell array (see
-/// group_array_rank). A failure is left in `source`.
-FileMesh read_vtk(Source& source);
+/// group_array_rank); with `fields` the other arrays are kept too. A failure is left in `source`.
+FileMesh read_vtk(Source& source, bool fields = false);
 /// XML unstructured grids of one piece: ASCII, base64 and raw appended data, plain or compressed by zlib.
-FileMesh read_vtu(Source& source);
+FileMesh read_vtu(Source& source, bool fields = false);
 
 /// Cells first, then the boundary facets; the cell array `group` holds the number of the region or patch.
 template <int Dim>
@@ -37,6 +37,7 @@ struct VtkGrid {
   std::vector<Index> types;
   std::vector<Index> groups;  ///< per cell, or empty
   std::vector<Index> lines;   ///< of the file, per cell, or empty
+  std::vector<FieldArray> fields;
 };
 
 /// Pixels and voxels become quads and hexahedra, poly-lines become edges, vertices are dropped.

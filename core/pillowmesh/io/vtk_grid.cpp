@@ -19,11 +19,12 @@ constexpr VtkType kTypes[] = {
 };
 
 template <int N>
-void keep(Elements<N>& elements, const Index* v, Index group, Index line) {
+void keep(Elements<N>& elements, const Index* v, Index group, Index line, std::size_t cell) {
   std::array<Index, N> vertices;
   for (int k = 0; k < N; ++k) vertices[k] = v[k];
   elements.vertices.push_back(vertices);
   elements.tag.push_back(group);
+  elements.place.push_back(static_cast<Index>(cell));
   if (line > 0) elements.line.push_back(line);
 }
 
@@ -33,6 +34,7 @@ FileMesh to_file_mesh(VtkGrid grid, Source& source) {
   FileMesh mesh;
   mesh.first_vertex = 0;
   mesh.points = std::move(grid.points);
+  mesh.fields = std::move(grid.fields);
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
     if (!mesh.points[i].allFinite())
       source.fail_whole("a coordinate of vertex " + std::to_string(i) + " is not a finite number");
@@ -74,30 +76,30 @@ FileMesh to_file_mesh(VtkGrid grid, Source& source) {
         break;
       case 3:
       case 4:
-        for (Index k = 0; k + 1 < n; ++k) keep(mesh.lines, v + k, group, line);
+        for (Index k = 0; k + 1 < n; ++k) keep(mesh.lines, v + k, group, line, c);
         break;
       case 7:
         if (n == 4) {
-          keep(mesh.quads, v, group, line);
+          keep(mesh.quads, v, group, line, c);
         } else {
           add_foreign(mesh, n == 3 ? "triangles" : "polygons", line);
         }
         break;
       case 8: {
         const Index q[4] = {v[0], v[1], v[3], v[2]};
-        keep(mesh.quads, q, group, line);
+        keep(mesh.quads, q, group, line, c);
         break;
       }
       case 9:
-        keep(mesh.quads, v, group, line);
+        keep(mesh.quads, v, group, line, c);
         break;
       case 11: {
         const Index h[8] = {v[0], v[1], v[3], v[2], v[4], v[5], v[7], v[6]};
-        keep(mesh.hexes, h, group, line);
+        keep(mesh.hexes, h, group, line, c);
         break;
       }
       case 12:
-        keep(mesh.hexes, v, group, line);
+        keep(mesh.hexes, v, group, line, c);
         break;
       default:
         add_foreign(mesh, type->plural, line);

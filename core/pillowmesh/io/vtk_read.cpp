@@ -48,7 +48,7 @@ int size_of(Type type) {
 
 class VtkReader {
  public:
-  explicit VtkReader(Source& source) : in_(source) {}
+  VtkReader(Source& source, bool fields) : in_(source), fields_(fields) {}
 
   FileMesh read() {
     const std::string_view header = in_.rest_of_line();
@@ -155,6 +155,7 @@ class VtkReader {
       read_types();
     } else if (keyword == "CELL_DATA" || keyword == "POINT_DATA") {
       of_cells_ = keyword == "CELL_DATA";
+      in_data_ = true;
       tuples_ = number("a count");
     } else if (keyword == "METADATA") {
       skip_metadata();
@@ -250,13 +251,18 @@ class VtkReader {
       rank_ = rank;
       grid_.groups.clear();
     }
-    if (binary_ && !wanted) {
+    FieldArray* field = nullptr;
+    if (fields_ && in_data_ && rank == 0 && !name.empty())
+      field = &grid_.fields.emplace_back(FieldArray{name, of_cells_, t != Type::f32 && t != Type::f64,
+                                                    static_cast<int>(components), {}});
+    if (binary_ && !wanted && field == nullptr) {
       in_.seek(in_.position() + static_cast<std::size_t>(n * unit));
       return true;
     }
     for (std::int64_t i = 0; i < n * components && !in_.failed(); ++i) {
       const double v = value(t);
       if (wanted) grid_.groups.push_back(group_number(v));
+      if (field != nullptr) field->values.push_back(v);
     }
     return true;
   }
@@ -319,7 +325,7 @@ class VtkReader {
     }
     const std::string type_name = word();
     end_line();
-    return read_array("", type_name, components, tuples_);
+    return read_array(is("GLOBAL_IDS") || is("PEDIGREE_IDS") ? "" : name, type_name, components, tuples_);
   }
 
   /// Up to an empty line.
@@ -330,16 +336,18 @@ class VtkReader {
   }
 
   Source& in_;
+  bool fields_;
   VtkGrid grid_;
   bool binary_ = false, modern_ = false;
   bool points_ = false, cells_ = false, types_ = false;
   bool of_cells_ = false;
+  bool in_data_ = false;  ///< after CELL_DATA or POINT_DATA
   std::int64_t tuples_ = 0;
   int rank_ = 0;
 };
 
 }  // namespace
 
-FileMesh read_vtk(Source& source) { return VtkReader(source).read(); }
+FileMesh read_vtk(Source& source, bool fields) { return VtkReader(source, fields).read(); }
 
 }  // namespace pillowmesh

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <bit>
+#include <string>
 
 #include "pillowmesh/io/vtk.h"
 
@@ -54,9 +56,33 @@ void write_vtk(const MeshInput<Dim>& mesh, Sink& sink, bool binary) {
   for (std::size_t i = 0; i < total; ++i)
     value(static_cast<Index>(i < mesh.cells.size() ? kVtkCell<Dim> : kVtkFacet<Dim>), '\n');
   end_values();
-  sink << "CELL_DATA " << total << "\nFIELD FieldData 1\ngroup 1 " << total << " int\n";
+  const auto write_fields = [&](bool of_cells, std::size_t count) {
+    for (const FieldArray& f : mesh.fields) {
+      if (f.of_cells != of_cells) continue;
+      std::string name = f.name;  // a name is one word here
+      for (char& c : name)
+        if (c == ' ' || c == '\t' || c == '\n') c = '_';
+      const std::size_t n = count * static_cast<std::size_t>(f.components);
+      sink << name << ' ' << f.components << ' ' << count << (f.whole ? " long\n" : " double\n");
+      for (std::size_t i = 0; i < n; ++i) {
+        const double v = i < f.values.size() ? f.values[i] : 0.0;
+        if (f.whole)
+          value(static_cast<std::int64_t>(v), '\n');
+        else
+          value(v, '\n');
+      }
+      end_values();
+    }
+  };
+  const auto of_cells = static_cast<std::size_t>(
+      std::count_if(mesh.fields.begin(), mesh.fields.end(), [](const FieldArray& f) { return f.of_cells; }));
+  sink << "CELL_DATA " << total << "\nFIELD FieldData " << of_cells + 1 << "\ngroup 1 " << total << " int\n";
   for (Index group : group_array(mesh)) value(group, '\n');
   end_values();
+  write_fields(true, total);
+  if (of_cells == mesh.fields.size()) return;
+  sink << "POINT_DATA " << mesh.points.size() << "\nFIELD FieldData " << mesh.fields.size() - of_cells << '\n';
+  write_fields(false, mesh.points.size());
 }
 
 template void write_vtk<2>(const MeshInput<2>&, Sink&, bool);

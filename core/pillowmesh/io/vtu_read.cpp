@@ -19,7 +19,8 @@ struct DataArray {
 
 class VtuReader {
  public:
-  explicit VtuReader(Source& source) : in_(source), text_(source.view(0, source.remaining())) {}
+  VtuReader(Source& source, bool fields)
+      : in_(source), text_(source.view(0, source.remaining())), wants_fields_(fields) {}
 
   FileMesh read() {
     if (!find_arrays()) return {};
@@ -34,6 +35,7 @@ class VtuReader {
       expect(grid.types.size(), cell_count_, "types", "NumberOfCells");
       if (grid.groups.size() != grid.ends.size()) grid.groups.clear();
     }
+    read_fields(grid);
     FileMesh mesh = to_file_mesh(std::move(grid), in_);
     mesh.names = std::move(names_);
     return mesh;
@@ -102,6 +104,9 @@ class VtuReader {
         if (section == "Cells" && name == "connectivity") connectivity_ = array;
         if (section == "Cells" && name == "offsets") offsets_ = array;
         if (section == "Cells" && name == "types") types_ = array;
+        if (wants_fields_ && !name.empty() &&
+            (section == "PointData" || (section == "CellData" && group_array_rank(name) == 0)))
+          fields_.push_back({array, section == "CellData"});
         if (section == "CellData" && group_array_rank(name) > rank) {
           rank = group_array_rank(name);
           groups_ = array;
@@ -142,6 +147,22 @@ class VtuReader {
     grid.points.reserve(values.size() / 3);
     for (std::size_t i = 0; i + 2 < values.size(); i += 3)
       grid.points.emplace_back(values[i], values[i + 1], values[i + 2]);
+  }
+
+  void read_fields(VtkGrid& grid) {
+    for (const auto& [array, of_cells] : fields_) {
+      if (in_.failed()) return;
+      const std::string_view type = attribute(array.tag, "type"), count = attribute(array.tag, "NumberOfComponents");
+      if (type == "String") continue;
+      std::int64_t components = 1;
+      if (!count.empty() && (!parse_integer(count, components) || components < 1 || components > 1000)) continue;
+      FieldArray& field = grid.fields.emplace_back();
+      field.name = unescaped(attribute(array.tag, "Name"));
+      field.of_cells = of_cells;
+      field.whole = !type.starts_with("Float");
+      field.components = static_cast<int>(components);
+      read_array(array, field.name.c_str(), field.values);
+    }
   }
 
   template <class T>
@@ -276,7 +297,13 @@ class VtuReader {
 
   Source& in_;
   std::string_view text_;
+  bool wants_fields_;
   DataArray points_, connectivity_, offsets_, types_, groups_;
+  struct Field {
+    DataArray array;
+    bool of_cells;
+  };
+  std::vector<Field> fields_;
   std::vector<FileMesh::Name> names_;
   std::string_view appended_;
   bool raw_ = false, swapped_ = false, compressed_ = false;
@@ -286,6 +313,6 @@ class VtuReader {
 
 }  // namespace
 
-FileMesh read_vtu(Source& source) { return VtuReader(source).read(); }
+FileMesh read_vtu(Source& source, bool fields) { return VtuReader(source, fields).read(); }
 
 }  // namespace pillowmesh

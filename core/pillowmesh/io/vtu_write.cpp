@@ -140,7 +140,28 @@ void write_vtu(const MeshInput<Dim>& mesh, Sink& sink, bool binary) {
   out.begin<Index>("Int32", "group", 1, total);
   for (Index group : group_array(mesh)) out.value(group, '\n');
   out.end();
-  sink << "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n";
+  const auto write_fields = [&](bool of_cells, std::size_t count) {
+    for (const FieldArray& f : mesh.fields) {
+      if (f.of_cells != of_cells) continue;
+      const std::size_t n = count * static_cast<std::size_t>(f.components);
+      const std::string name = escaped(f.name);
+      f.whole ? out.begin<std::int64_t>("Int64", name.c_str(), f.components, n)
+              : out.begin<double>("Float64", name.c_str(), f.components, n);
+      for (std::size_t i = 0; i < n; ++i) {
+        const double v = i < f.values.size() ? f.values[i] : 0.0;
+        f.whole ? out.value(static_cast<std::int64_t>(v), '\n') : out.value(v, '\n');
+      }
+      out.end();
+    }
+  };
+  write_fields(true, total);
+  sink << "      </CellData>\n";
+  if (std::any_of(mesh.fields.begin(), mesh.fields.end(), [](const FieldArray& f) { return !f.of_cells; })) {
+    sink << "      <PointData>\n";
+    write_fields(false, mesh.points.size());
+    sink << "      </PointData>\n";
+  }
+  sink << "    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n";
 }
 
 template void write_vtu<2>(const MeshInput<2>&, Sink&, bool);

@@ -29,6 +29,15 @@ struct Group {
   std::string name;
 };
 
+/// Values of the points or the cells of a mesh, all components of one after the other's.
+struct FieldArray {
+  std::string name;
+  bool of_cells = false;
+  bool whole = false;  ///< whole numbers, such as materials: never interpolated
+  int components = 1;
+  std::vector<double> values;
+};
+
 template <int Dim>
 struct Geometry;  // mesh/boundary.h
 
@@ -128,6 +137,9 @@ struct MeshInput {
   };
   std::vector<Mark> marks;
   std::vector<Group> mark_groups;
+
+  /// Written to VTK files; those of cells are 0 at facets.
+  std::vector<FieldArray> fields;
 
   /// How to name cell c in a message, e.g. "quad 17 (line 240)"; empty: "cell c" counted from 0.
   std::vector<Index> cell_lines;
