@@ -18,8 +18,6 @@
 namespace pillowmesh::cli {
 namespace {
 
-constexpr double kImageCells = 6000.0, kImageGradation = 1.5;
-
 std::string dimensional(int dim) { return std::to_string(dim) + "-dimensional"; }
 
 /// The vertices and cells of the file or primitive that a .sol belongs to.
@@ -219,10 +217,7 @@ Expected<MetricField<Dim>> problem_metric(const ProblemFlags& flags, const Mesh<
   if (!sources) return sources.status();
   MetricOperations operations = flags.operations;
   const bool image = !flags.image.empty() || flags.case_name == portrait_case().name;
-  if (image) {  // what a picture does not say itself
-    if (operations.cells == 0.0 && flags.error == 0.0) operations.cells = kImageCells;
-    if (operations.gradation == 0.0) operations.gradation = kImageGradation;
-  }
+  if (image) use_picture_defaults(operations, flags.error);
   auto field = combine_field(*sources, operations, mesh);
   if (!field || flags.size_scale == 1.0) return field;
   return field->scaled(flags.size_scale);

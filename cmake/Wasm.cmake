@@ -12,7 +12,7 @@ endif()
 # -Oz at the link keeps it from undoing the rest; the hot code keeps the speed of the -O2 that it is compiled with.
 string(JOIN "|" hot
   "refine/(balance|buffer_layer|edge_tags|hull|layer|tag_inheritance|untangle|vertex_copies)" "smooth/" "quality/shape"
-  "metric/(background|program|field|length|volume)" "adapt/tagging" "mesh/(slide|topology)")
+  "metric/(background|discrete|program|field|length|simplex_tree|volume)" "adapt/tagging" "mesh/(slide|topology)")
 foreach(source ${core_sources} ${wasm_sources})
   if(source MATCHES "pillowmesh/(${hot})|third_party")
     set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -O2 -flto)
@@ -50,9 +50,11 @@ function(pillowmesh_module target)
     OUTPUT_NAME ${module_OUTPUT} SUFFIX .wasm RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 endfunction()
 
-set(adapting wasm/c_api.cpp wasm/events.cpp ${by_dimension} ${by_method})
+set(adapting wasm/c_api.cpp wasm/events.cpp wasm/nodal_bytes.cpp ${by_dimension} ${by_method})
 pillowmesh_module(pillowmesh_wasm OUTPUT pillowmesh SOURCES ${adapting}
   DEFINITIONS PILLOWMESH_DIMENSION=2 PILLOWMESH_PAPER_ONLY)
 pillowmesh_module(pillowmesh_wasm_full OUTPUT pillowmesh_full SOURCES ${adapting} DEFINITIONS PILLOWMESH_DIMENSION=2)
 pillowmesh_module(pillowmesh_wasm3d OUTPUT pillowmesh3d SOURCES ${adapting} DEFINITIONS PILLOWMESH_DIMENSION=3)
 pillowmesh_module(pillowmesh_wasm_files OUTPUT pillowmesh_files SOURCES wasm/files_api.cpp ${by_dimension})
+pillowmesh_module(pillowmesh_wasm_metrics OUTPUT pillowmesh_metrics
+  SOURCES wasm/metrics_api.cpp wasm/nodal_bytes.cpp ${by_dimension})

@@ -12,6 +12,7 @@
 
 #include "events.h"
 #include "input_bytes.h"
+#include "nodal_bytes.h"
 #include "pillowmesh/adapt/adapter.h"
 #include "pillowmesh/mesh/any_mesh.h"
 #include "pillowmesh/mesh/boundary.h"
@@ -89,6 +90,16 @@ Expected<AnyMesh> mesh_from_bytes(std::string_view name, std::span<const char> b
   auto input = from_bytes<Dim>(bytes);
   if (!input) return input.status();
   return make_any_mesh(std::move(*input), name, options);
+}
+
+template <int Dim>
+Status use_metric(Problem<Dim>& p, const Expected<MetricField<Dim>>& field, double scale) {
+  if (!(scale > 0.0)) return Status::usage("The size factor must be positive.");
+  if (!field) return field.status();
+  if (Status usable = field->check(p.mesh.points); !usable.ok()) return usable;
+  p.field = scale == 1.0 ? *field : field->scaled(scale);
+  p.adapter.reset();
+  return {};
 }
 
 void append_quoted(std::string_view text, std::string& json) {
@@ -223,14 +234,13 @@ pm_status pm_load_case(pm_session* session, const char* name, uint32_t size) {
 
 pm_status pm_set_metric(pm_session* session, const char* formula, uint32_t size, double scale) {
   return session->with_mesh([&](auto& p) -> Status {
-    constexpr int dim = std::decay_t<decltype(p)>::dimension;
-    if (!(scale > 0.0)) return Status::usage("The size factor must be positive.");
-    auto field = MetricField<dim>::from_formula({formula, size});
-    if (!field) return field.status();
-    if (Status usable = field->check(p.mesh.points); !usable.ok()) return usable;
-    p.field = scale == 1.0 ? *field : field->scaled(scale);
-    p.adapter.reset();
-    return {};
+    return use_metric(p, MetricField<std::decay_t<decltype(p)>::dimension>::from_formula({formula, size}), scale);
+  });
+}
+
+pm_status pm_set_nodal(pm_session* session, const char* bytes, uint32_t size, double scale) {
+  return session->with_mesh([&](auto& p) -> Status {
+    return use_metric(p, field_from_bytes<std::decay_t<decltype(p)>::dimension>({bytes, size}), scale);
   });
 }
 

@@ -68,6 +68,9 @@ PM_API(pm_load_case) pm_status pm_load_case(pm_session* session, const char* nam
 /// The metric from a formula, its sizes multiplied by `scale`. A mesh must be loaded: it says the dimension. The metric
 /// is checked at the mesh's vertices.
 PM_API(pm_set_metric) pm_status pm_set_metric(pm_session* session, const char* formula, uint32_t size, double scale);
+/// The metric from the bytes of pm_metrics_build (metrics_api.h), its sizes multiplied by `scale`. A mesh must be
+/// loaded.
+PM_API(pm_set_nodal) pm_status pm_set_nodal(pm_session* session, const char* bytes, uint32_t size, double scale);
 /// An option by its command-line name, see adapt/options.h. Those of the boundary (corner-angle, freeze) are for meshes that are
 /// loaded afterwards.
 PM_API(pm_set_option)

@@ -44,6 +44,7 @@ export interface Exports {
   pm_load_grid(session: Pointer, spec: Pointer, size: number): Status;
   pm_load_case(session: Pointer, name: Pointer, size: number): Status;
   pm_set_metric(session: Pointer, formula: Pointer, size: number, scale: number): Status;
+  pm_set_nodal(session: Pointer, bytes: Pointer, size: number, scale: number): Status;
   pm_set_option(session: Pointer, name: Pointer, nameSize: number, value: Pointer, size: number): Status;
   pm_begin(session: Pointer): Status;
   pm_step(session: Pointer, steps: number): Status;
@@ -72,6 +73,32 @@ export interface FilesExports {
   pm_files_write(files: Pointer, name: Pointer, nameSize: number, bytes: Pointer, size: number): Status;
 }
 
+/** The functions of metrics_api.h. */
+export interface MetricsExports {
+  memory: WebAssembly.Memory;
+  pm_alloc(bytes: number): Pointer;
+  pm_free(memory: Pointer): void;
+  pm_metrics_create(): Pointer;
+  pm_metrics_destroy(metrics: Pointer): void;
+  pm_metrics_message(metrics: Pointer): Pointer;
+  pm_metrics_bytes(metrics: Pointer): Pointer;
+  pm_metrics_byte_count(metrics: Pointer): number;
+  pm_metrics_mesh(metrics: Pointer, bytes: Pointer, size: number): Status;
+  pm_metrics_formula(metrics: Pointer, formula: Pointer, size: number): Status;
+  pm_metrics_background(metrics: Pointer, name: Pointer, nameSize: number, bytes: Pointer, size: number): Status;
+  pm_metrics_sol(metrics: Pointer, name: Pointer, nameSize: number, bytes: Pointer, size: number): Status;
+  pm_metrics_hessian_sol(metrics: Pointer, name: Pointer, nameSize: number, bytes: Pointer, size: number): Status;
+  pm_metrics_hessian_of(metrics: Pointer, formula: Pointer, size: number): Status;
+  pm_metrics_image(metrics: Pointer, gray: Pointer, size: number, width: number): Status;
+  pm_metrics_portrait(metrics: Pointer): Status;
+  pm_metrics_sketch(metrics: Pointer, dabs: Pointer, size: number, paper: number): Status;
+  pm_metrics_layer(metrics: Pointer, layer: Pointer, size: number): Status;
+  pm_metrics_curvature(metrics: Pointer, perTurn: number): Status;
+  pm_metrics_implied(metrics: Pointer, bytes: Pointer, size: number): Status;
+  pm_metrics_option(metrics: Pointer, name: Pointer, nameSize: number, value: Pointer, size: number): Status;
+  pm_metrics_build(metrics: Pointer): Status;
+}
+
 /** The loaded core: its exports, and the module for further instances. */
 export interface Core {
   readonly exports: Exports;
@@ -87,19 +114,26 @@ export interface FilesModule {
   readonly module: WebAssembly.Module;
 }
 
+/** The module that makes metrics, loaded. */
+export interface MetricsModule {
+  readonly exports: MetricsExports;
+  readonly module: WebAssembly.Module;
+}
+
 /**
  * Which core: for quadrilaterals by the paper's method, for hexahedra, or for quadrilaterals by either method. The first
  * is the smallest.
  */
 export type CoreName = 2 | 3 | 'full';
 
-/** Where the modules are: the cores, and that for file formats. */
-export type ModuleSources<T = CoreSource> = Record<CoreName | 'files', T>;
+/** Where the modules are: the cores, that for file formats, and that which makes metrics, for those who use it. */
+export type ModuleSources<T = CoreSource> = Record<CoreName | 'files', T> & { metrics?: T };
 
 /** The modules, each loaded when first asked for; after a failure it is tried again. */
 export interface Modules {
   core(name: CoreName): Promise<Core>;
   files(): Promise<FilesModule>;
+  metrics(): Promise<MetricsModule>;
 }
 
 /** `read` may turn a source into another, e.g. an address into bytes, when it is wanted. */
@@ -109,9 +143,11 @@ export function modulesFrom(
 ): Modules {
   const cores = new Map<CoreName, Promise<Core>>();
   const files = new Map<'files', Promise<FilesModule>>();
+  const metrics = new Map<'metrics', Promise<MetricsModule>>();
   return {
     core: (name) => once(cores, name, async () => loadCore(await read(sources[name]))),
     files: () => once(files, 'files', async () => loadFiles(await read(sources.files))),
+    metrics: () => once(metrics, 'metrics', async () => loadMetrics(sources.metrics && (await read(sources.metrics)))),
   };
 }
 
@@ -216,4 +252,10 @@ export function loadCore(source: CoreSource): Promise<Core> {
 /** The module of file formats: pillowmesh_files.wasm. */
 export function loadFiles(source: CoreSource): Promise<FilesModule> {
   return load<FilesExports>(source, 'pm_files_create');
+}
+
+/** The module that makes metrics: pillowmesh_metrics.wasm. */
+export async function loadMetrics(source: CoreSource | undefined): Promise<MetricsModule> {
+  if (source === undefined) throw new LoadError('missing', 'The module that makes metrics is not part of this page.');
+  return load<MetricsExports>(source, 'pm_metrics_create');
 }

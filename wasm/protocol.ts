@@ -1,5 +1,6 @@
 // The messages between a page and the worker that computes.
 import type { LoadFailure, ModuleSources } from './loader.ts';
+import type { MetricRequest } from './metrics.ts';
 import type { Case, MeshArrays, MeshSource, MetricSpec, Options, Outcome, StatusName } from './session.ts';
 
 /** The calls that a worker answers: arguments and result of each. */
@@ -11,6 +12,8 @@ export interface Calls {
   metric: { args: MetricSpec; result: null };
   /** Adapts the mesh; events arrive while it runs. Answered when the run is over. */
   run: { args: { options: Options }; result: RunResult };
+  /** The bytes of a metric for the open mesh, for `metric`: made by a module of its own, loaded when first asked for. */
+  makeMetric: { args: MetricRequest; result: Uint8Array };
   pause: { args: Record<never, never>; result: null };
   resume: { args: Record<never, never>; result: null };
   cancel: { args: Record<never, never>; result: null };

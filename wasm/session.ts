@@ -24,11 +24,11 @@ export type MeshSource =
 /** The same with a file read: what a session loads. `bytes` are those of `readFile`. */
 export type Loadable = Exclude<MeshSource, { kind: 'file' }> | { kind: 'input'; name: string; bytes: Uint8Array };
 
-export interface MetricSpec {
-  formula: string;
+/** A formula, or the bytes that makeMetric (metrics.ts) gave. */
+export type MetricSpec = ({ formula: string } | { nodal: Uint8Array }) & {
   /** All sizes are multiplied by this; 1 by default. */
   scale?: number;
-}
+};
 
 /** Options by their command-line names without dashes, e.g. {threshold: '2', smooth: 'end'}. */
 export type Options = Record<string, string>;
@@ -173,8 +173,10 @@ export class Session {
     }
   }
 
-  setMetric({ formula, scale = 1 }: MetricSpec): void {
-    this.check(this.pass([formula], (p, n) => this.core.pm_set_metric(this.handle, p, n, scale)));
+  setMetric({ scale = 1, ...metric }: MetricSpec): void {
+    const { core, handle } = this;
+    if ('nodal' in metric) this.check(this.pass([metric.nodal], (p, n) => core.pm_set_nodal(handle, p, n, scale)));
+    else this.check(this.pass([metric.formula], (p, n) => core.pm_set_metric(handle, p, n, scale)));
   }
 
   setOption(name: string, value: string): void {

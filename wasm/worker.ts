@@ -4,6 +4,7 @@
 import { decodeEvents } from './events.ts';
 import { writeFile } from './files.ts';
 import { CrashError, LoadError, modulesFrom, type Modules } from './loader.ts';
+import { makeMetric } from './metrics.ts';
 import type { CallName, Calls, Failure, Goodbye, Hello, Reply, Request, RunResult, Setup } from './protocol.ts';
 import {
   CoreError,
@@ -131,6 +132,14 @@ export class Server {
         this.cancel();
         this.present!.specification.metric = request.args;
         return null;
+      case 'makeMetric': {
+        this.session(); // there must be a mesh: as it was opened, not what a run has made of it
+        const { core, source } = this.present!;
+        const original = prepared(core, source, { options: {} }).session;
+        const mesh = original.input();
+        original.destroy();
+        return makeMetric(await this.modules.metrics(), mesh, request.args);
+      }
       case 'pause':
         if (this.run) this.run.paused = true;
         return null;

@@ -17,8 +17,9 @@ export const modulePaths = {
   full: built('pillowmesh_full'),
   3: built('pillowmesh3d'),
   files: built('pillowmesh_files'),
+  metrics: built('pillowmesh_metrics'),
 };
-export const moduleBytes = (which: CoreName | 'files'): Buffer<ArrayBuffer> =>
+export const moduleBytes = (which: CoreName | 'files' | 'metrics'): Buffer<ArrayBuffer> =>
   readFileSync(modulePaths[which]) as Buffer<ArrayBuffer>;
 /** The core for quadrilaterals with all methods, unless another is asked for. */
 export const load = (which: CoreName = 'full'): Promise<Core> => loadCore(moduleBytes(which));

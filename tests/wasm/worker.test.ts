@@ -5,7 +5,7 @@ import { Server } from '../../wasm/worker.ts';
 import { modulesFrom, type Modules } from '../../wasm/loader.ts';
 import { moduleBytes } from './core.ts';
 
-const all = { 2: moduleBytes(2), full: moduleBytes('full'), 3: moduleBytes(3), files: moduleBytes('files') };
+const all = { 2: moduleBytes(2), full: moduleBytes('full'), 3: moduleBytes(3), files: moduleBytes('files'), metrics: moduleBytes('metrics') };
 
 /** The worker's server in this thread: calls as promises, events collected. */
 class Bench {
@@ -95,10 +95,11 @@ describe('the worker', () => {
 
   test('fetches the module for hexahedra when a mesh of them is opened, and no sooner', async () => {
     const asked: (number | string)[] = [];
-    const { core, files } = modulesFrom(all);
+    const { core, files, metrics } = modulesFrom(all);
     const bench = new Bench({
       core: (dim) => (asked.push(dim), core(dim)),
       files: () => (asked.push('files'), files()),
+      metrics,
     });
     await bench.call('about', {});
     await bench.call('open', iso2d);
@@ -116,10 +117,24 @@ describe('the worker', () => {
     expect(asked).toContain('files');
   });
 
+  test('makes a metric from dabs for the mesh that was opened, and adapts to it', async () => {
+    const bench = new Bench();
+    await bench.call('open', { source: { kind: 'grid', spec: 'grid:4,4:0,1,0,1' }, metric: { formula: 'h = 0.3' } });
+    await bench.call('run', { options: { smooth: 'none' } });
+    const dabs = [{ x: 0.3, y: 0.3, radius: 0.1, size: 0.02 }];
+    const nodal = await bench.call('makeMetric', { dabs, paper: 0.2 });
+    await bench.call('metric', { nodal });
+    const { outcome, report } = await bench.call('run', { options: { smooth: 'none' } });
+    expect(outcome.status).toBe('ok');
+    expect(JSON.parse(report).mesh.cells).toBeGreaterThan(100);
+    expect(await bench.call('makeMetric', { dabs, paper: 0.2 })).toEqual(nodal); // not for what the run has made
+    await expect(bench.call('makeMetric', { dabs: [{ x: 0, y: 0, radius: 0, size: 1 }] })).rejects.toThrow('dab 1');
+  });
+
   test('fetches the module with full adaptation when a run asks for that, and goes on with the same mesh', async () => {
     const asked: (number | string)[] = [];
-    const { core, files } = modulesFrom(all);
-    const bench = new Bench({ core: (name) => (asked.push(name), core(name)), files });
+    const { core, files, metrics } = modulesFrom(all);
+    const bench = new Bench({ core: (name) => (asked.push(name), core(name)), files, metrics });
     await bench.call('open', { source: { kind: 'grid', spec: 'grid:4,4:0,1,0,1' } });
     await bench.call('metric', { formula: 'h = 0.03 + 0.1*x' });
     const paper = JSON.parse((await bench.call('run', { options: { method: 'paper' } })).report);
@@ -131,12 +146,12 @@ describe('the worker', () => {
   });
 
   test('cancels a run that waits for its module', async () => {
-    const { core, files } = modulesFrom(all);
+    const { core, files, metrics } = modulesFrom(all);
     const slow: Modules['core'] = async (name) => {
       if (name === 'full') await pause(50);
       return core(name);
     };
-    const bench = new Bench({ core: slow, files });
+    const bench = new Bench({ core: slow, files, metrics });
     await bench.call('open', iso2d);
     const run = bench.call('run', { options: { method: 'full' } });
     await bench.call('cancel', {});
@@ -144,12 +159,12 @@ describe('the worker', () => {
   });
 
   test('answers in order what is asked while a mesh waits for its module', async () => {
-    const { core, files } = modulesFrom(all);
+    const { core, files, metrics } = modulesFrom(all);
     const slow: Modules['core'] = async (dim) => {
       if (dim === 3) await pause(50);
       return core(dim);
     };
-    const bench = new Bench({ core: slow, files });
+    const bench = new Bench({ core: slow, files, metrics });
     const grid = (spec: string) => bench.call('open', { source: { kind: 'grid', spec } });
     const solid = grid('grid:1,1,1:0,1,0,1,0,1');
     const metric = bench.call('metric', { formula: 'h = 1' });

@@ -97,6 +97,11 @@ Status set_operation(MetricOperations& operations, std::string_view name, std::s
   return Status::usage("there is no metric operation --" + std::string(name));
 }
 
+void use_picture_defaults(MetricOperations& operations, double error) {
+  if (operations.cells == 0.0 && error == 0.0) operations.cells = 6000.0;
+  if (operations.gradation == 0.0) operations.gradation = 1.5;
+}
+
 template <int Dim>
 double scale_to_cells(const MetricField<Dim>& field, const Mesh<Dim>& mesh, double cells) {
   const double ratio = measured_complexity(mesh, field) / cells;

@@ -25,6 +25,9 @@ struct MetricOperations {
 /// \return usage with the allowed values when name or value is wrong
 Status set_operation(MetricOperations& operations, std::string_view name, std::string_view value);
 
+/// What a picture does not say itself: 6000 cells, unless `error` or a number is given, and a gradation of 1.5.
+void use_picture_defaults(MetricOperations& operations, double error);
+
 /// A field, or tensors on a background of their own.
 template <int Dim>
 using MetricSource = std::variant<MetricField<Dim>, NodalMetric<Dim>>;

@@ -4,6 +4,7 @@ import planeUrl from '../../../build/wasm/pillowmesh.wasm?url';
 import fullUrl from '../../../build/wasm/pillowmesh_full.wasm?url';
 import solidUrl from '../../../build/wasm/pillowmesh3d.wasm?url';
 import filesUrl from '../../../build/wasm/pillowmesh_files.wasm?url';
+import metricsUrl from '../../../build/wasm/pillowmesh_metrics.wasm?url';
 import workerUrl from '../../../wasm/worker.ts?worker&url';
 
 let pool: Pool | null = null;
@@ -21,7 +22,13 @@ function importingWorker(address: string): Worker {
 
 export function corePool(): Pool {
   const address = absolute(workerUrl);
-  const modules = { 2: absolute(planeUrl), full: absolute(fullUrl), 3: absolute(solidUrl), files: absolute(filesUrl) };
+  const modules = {
+    2: absolute(planeUrl),
+    full: absolute(fullUrl),
+    3: absolute(solidUrl),
+    files: absolute(filesUrl),
+    metrics: absolute(metricsUrl),
+  };
   const foreign = new URL(address).origin !== location.origin;
   return (pool ??= new Pool(
     () => (foreign ? importingWorker(address) : new Worker(address, { type: 'module' })),
