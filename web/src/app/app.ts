@@ -2,9 +2,7 @@
 import { CrashError, LoadError } from '../../../wasm/loader.ts';
 import { CoreError } from '../../../wasm/session.ts';
 import { looksInside } from '../inside/look_inside.ts';
-import { makeEmbedDialog } from '../panels/embed_dialog.ts';
 import { makeHeader, type SaveFormat } from '../panels/header.ts';
-import { makeHelp } from '../panels/help.ts';
 import { makeIndicators } from '../panels/indicators.ts';
 import { makeLookInside } from '../panels/look_inside.ts';
 import { makeMessages } from '../panels/messages.ts';
@@ -44,18 +42,14 @@ export class App {
     worst: () => this.flyToWorst(),
   });
   private readonly pointed = h('output', { class: 'pointed', hidden: true });
-  private readonly help = makeHelp(() => this.version);
-  private readonly embedding = makeEmbedDialog((done) =>
-    this.messages.show({ kind: 'note', text: done ? 'The code is copied.' : 'The code is selected; copy it from there.' }),
-  );
   private readonly header = makeHeader({
     copyLink: () => void this.copyLink(),
-    embed: () => this.embedding.show(this.link(), this.stage.caption),
+    embed: () => void this.showEmbed(),
     undo: () => this.history.undo(),
     redo: () => this.history.redo(),
     save: (format) => void this.save(format),
     toggleTheme,
-    help: () => this.help.showModal(),
+    help: () => void this.showHelp(),
   });
   private readonly inside = makeLookInside({
     change: (inside) => this.change({ inside }),
@@ -125,8 +119,6 @@ export class App {
         this.indicators.element,
       ),
       this.messages.element,
-      this.help,
-      this.embedding.element,
     );
     this.listen();
     void this.stage.show();
@@ -155,7 +147,7 @@ export class App {
         toggleMark: (mark) => this.toggleMark(mark),
         setPace: (pace) => this.setPace(pace),
         openFile: () => this.setup.openFileDialog(),
-        help: () => this.help.showModal(),
+        help: () => void this.showHelp(),
         history: this.history,
         worst: () => this.flyToWorst(),
         inside: this.inside,
@@ -337,6 +329,20 @@ export class App {
     history.replaceState(null, '', `#${link}`);
   }
 
+  private async showHelp(): Promise<void> {
+    const { makeHelp } = await import('../panels/help.ts');
+    showOnce(makeHelp(() => this.version)).showModal();
+  }
+
+  private async showEmbed(): Promise<void> {
+    const { makeEmbedDialog } = await import('../panels/embed_dialog.ts');
+    const dialog = makeEmbedDialog((done) =>
+      this.messages.show({ kind: 'note', text: done ? 'The code is copied.' : 'The code is selected; copy it from there.' }),
+    );
+    showOnce(dialog.element);
+    dialog.show(this.link(), this.stage.caption);
+  }
+
   private async copyLink(): Promise<void> {
     this.stage.player.pause();
     this.writeLink();
@@ -377,6 +383,13 @@ export class App {
     const lost = error instanceof LoadError || error instanceof CrashError;
     this.messages.show({ kind: 'error', text, ...(lost ? { action: this.restartAction() } : {}) });
   }
+}
+
+/** A dialog that is gone when it is closed. */
+function showOnce(dialog: HTMLDialogElement): HTMLDialogElement {
+  document.body.append(dialog);
+  dialog.addEventListener('close', () => dialog.remove());
+  return dialog;
 }
 
 /** What is shown alone, in units of its measure. */

@@ -11,8 +11,6 @@ import { ReplayMesh } from '../replay/replay_mesh.ts';
 import { sceneAfter } from '../replay/scene.ts';
 import { defaultMarks, type CameraPose, type Colouring, type Mark } from '../state/settings.ts';
 import { h } from '../ui/dom.ts';
-import { sampleEllipses } from '../viewport/ellipse_samples.ts';
-import { sampleIsolines } from '../viewport/isolines.ts';
 import { colourMaps, isDark, readPalette } from '../viewport/palette.ts';
 import type { InsideReport } from '../viewport/hex_body.ts';
 import { cellEdges, segmentsOf } from '../viewport/segments.ts';
@@ -153,6 +151,7 @@ export class Picture {
   async refreshEllipses(initial: MeshArrays, tensors: (points: Float64Array) => Promise<Float64Array>): Promise<void> {
     const { mesh } = this.player;
     if (!this.viewport || initial.dim !== 2) return;
+    const { sampleEllipses } = await import('../viewport/ellipse_samples.ts');
     const samples = await sampleEllipses(new ReplayMesh(initial), tensors);
     if (mesh === this.player.mesh) this.viewport?.setEllipses(samples.centres, samples.tensors);
     await this.refreshIsolines(initial, tensors);
@@ -163,7 +162,9 @@ export class Picture {
     tensors: (points: Float64Array) => Promise<Float64Array>,
   ): Promise<void> {
     const { mesh } = this.player;
-    const segments = this.look.marks.isolines ? await sampleIsolines(new ReplayMesh(initial), tensors) : new Float32Array(0);
+    if (!this.look.marks.isolines) return this.viewport?.setIsolines(new Float32Array(0));
+    const { sampleIsolines } = await import('../viewport/isolines.ts');
+    const segments = await sampleIsolines(new ReplayMesh(initial), tensors);
     if (mesh === this.player.mesh) this.viewport?.setIsolines(segments);
   }
 
