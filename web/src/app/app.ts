@@ -1,7 +1,7 @@
 // The page: settings, a stage, the panels around it, and what happens between them.
 import { CrashError, LoadError } from '../../../wasm/loader.ts';
 import { CoreError } from '../../../wasm/session.ts';
-import { looksInside } from '../inside/look_inside.ts';
+import { looksInside, pickedRange } from '../inside/look_inside.ts';
 import { makeHeader, type SaveFormat } from '../panels/header.ts';
 import { makeIndicators } from '../panels/indicators.ts';
 import { makeLookInside } from '../panels/look_inside.ts';
@@ -13,8 +13,9 @@ import { Stage } from '../stage/stage.ts';
 import { legendOf, summaryOf } from '../stage/words.ts';
 import { decodeSettings, encodeSettings, sameComputation } from '../state/permalink.ts';
 import { type Mark, type MeshChoice, type Pace, type Settings } from '../state/settings.ts';
-import { debounce, h } from '../ui/dom.ts';
+import { debounce, h, showOnce } from '../ui/dom.ts';
 import { icon } from '../ui/icons.ts';
+import { Comparing } from './comparing.ts';
 import { acceptDrops } from './drop.ts';
 import { History } from './history.ts';
 import { listenToKeys } from './keyboard.ts';
@@ -29,13 +30,21 @@ export class App {
   private readonly stage: Stage = new Stage(() => this.settings, {
     refresh: () => this.refresh(),
     opened: (formula) => this.opened(formula),
-    measured: (measures) => this.indicators.update(measures),
+    measured: (measures) => {
+      this.indicators.update(measures);
+      this.comparing.setFirst(measures);
+    },
     setStatus: (sentence) => this.setup.setStatus(sentence),
     done: () => undefined,
     stepped: () => undefined,
     tell: (error) => this.tell(error),
   });
   private readonly history = new History((link) => void this.follow(decodeSettings(link)));
+  private readonly comparing = new Comparing(
+    this.stage,
+    () => document.querySelector('.stage'),
+    (error) => this.tell(error),
+  );
   private readonly messages = makeMessages();
   private readonly indicators = makeIndicators({
     pick: (measure, range) => this.pick(measure, range),
@@ -80,6 +89,7 @@ export class App {
       this.settings.options[name] = value;
       void this.stage.run.forget();
     },
+    compareWith: (compare) => this.change({ compare }),
     run: () => void this.stage.run.start('play'),
     stop: () => void this.stage.run.stop(),
   });
@@ -303,6 +313,7 @@ export class App {
     this.setup.update({
       mesh: settings.mesh,
       options: settings.options,
+      compare: settings.compare,
       running: workshop.running,
       summary: subject.empty ? '' : summaryOf(settings.mesh, subject.initial),
     });
@@ -312,6 +323,7 @@ export class App {
     this.tools.setLegend(legendOf(settings.colouring, picture.colours, player.iterations));
     this.start_.hidden = run.hasRun || subject.empty;
     this.indicators.setIrregular(player.atEnd && player.complete ? run.irregular : null);
+    this.comparing.update(settings);
     this.rewriteLink();
   }
 
@@ -383,17 +395,4 @@ export class App {
     const lost = error instanceof LoadError || error instanceof CrashError;
     this.messages.show({ kind: 'error', text, ...(lost ? { action: this.restartAction() } : {}) });
   }
-}
-
-/** A dialog that is gone when it is closed. */
-function showOnce(dialog: HTMLDialogElement): HTMLDialogElement {
-  document.body.append(dialog);
-  dialog.addEventListener('close', () => dialog.remove());
-  return dialog;
-}
-
-/** What is shown alone, in units of its measure. */
-function pickedRange({ measure, low, high }: Settings['inside']['quality']): [number, number] | null {
-  if (low <= 0 && high >= 1) return null;
-  return measure === 'length' ? [low / (1 - low), high < 1 ? high / (1 - high) : Infinity] : [low, high];
 }
