@@ -43,13 +43,17 @@ export default defineConfig({
     emptyOutDir: true,
     target: 'es2022',
     cssTarget: ['chrome123', 'firefox120', 'safari17.5'], // those that know light-dark()
+    modulePreload: { polyfill: false }, // every browser that knows light-dark() has it
     assetsInlineLimit: 0,
     chunkSizeWarningLimit: 900, // three.js, loaded when the first frame stands
     rolldownOptions: {
       input: { ...pages, 'pillow-mesh': join(web, 'src/element/index.ts') },
       preserveEntrySignatures: 'allow-extension',
       // Other sites write this name into their pages.
-      output: { entryFileNames: ({ name }) => (name === 'pillow-mesh' ? '[name].js' : 'assets/[name]-[hash].js') },
+      output: {
+        entryFileNames: ({ name }) => (name === 'pillow-mesh' ? '[name].js' : 'assets/[name]-[hash].js'),
+        codeSplitting: { groups: [{ name: 'three', test: /node_modules[\\/]three/ }] },
+      },
     },
   },
 });

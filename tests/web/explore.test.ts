@@ -149,6 +149,31 @@ describe('looking', () => {
   });
 });
 
+describe('comparing', () => {
+  test('lays a second answer over the first, with a slider between them', async () => {
+    await visit('#case=circle2d&event=last&hide=ellipses');
+    await ran();
+    const alone = await pictureNow();
+    await page.getByLabel('Compare with').selectOption('method=paper&smooth=none');
+    await expect.poll(() => page.locator('.side-note.right').innerText(), eventually).toMatch(/^no smoothing: [\d,]+ quads, l .*cv 0\.[45]/);
+    await expect.poll(() => page.locator('.side-note.left').innerText(), eventually).toMatch(/^as set: [\d,]+ quads.*cv 0\.3/);
+    await expect.poll(() => part('compare')).toBe('method=paper&smooth=none');
+    const wipe = page.getByRole('slider', { name: 'Wipe between' });
+    await wipe.fill('0');
+    expect(await page.locator('.over').evaluate((e) => getComputedStyle(e).clipPath)).toContain('0%');
+    await page.waitForTimeout(400);
+    expect((await page.locator('.stage').screenshot()).equals(alone)).toBe(false);
+    await wipe.fill('55');
+    await page.mouse.move(670, 350);
+    await page.mouse.wheel(0, -500);
+    await page.waitForTimeout(700);
+    await page.screenshot({ path: join(screenshots, 'compare.png') });
+    await page.getByLabel('Compare with').selectOption('');
+    await expect.poll(() => page.locator('.comparison').count()).toBe(0);
+    expect(complaints).toEqual([]);
+  });
+});
+
 describe('undo and redo', () => {
   test('lead through formulas, options, looks and moments', async () => {
     await visit('#case=aniso2d');

@@ -1,10 +1,8 @@
 // The page: settings, a stage, the panels around it, and what happens between them.
 import { CrashError, LoadError } from '../../../wasm/loader.ts';
 import { CoreError } from '../../../wasm/session.ts';
-import { looksInside } from '../inside/look_inside.ts';
-import { makeEmbedDialog } from '../panels/embed_dialog.ts';
+import { looksInside, pickedRange } from '../inside/look_inside.ts';
 import { makeHeader, type SaveFormat } from '../panels/header.ts';
-import { makeHelp } from '../panels/help.ts';
 import { makeIndicators } from '../panels/indicators.ts';
 import { makeLookInside } from '../panels/look_inside.ts';
 import { makeMessages } from '../panels/messages.ts';
@@ -15,8 +13,9 @@ import { Stage } from '../stage/stage.ts';
 import { legendOf, summaryOf } from '../stage/words.ts';
 import { decodeSettings, encodeSettings, sameComputation } from '../state/permalink.ts';
 import { type Mark, type MeshChoice, type Pace, type Settings } from '../state/settings.ts';
-import { debounce, h } from '../ui/dom.ts';
+import { debounce, h, showOnce } from '../ui/dom.ts';
 import { icon } from '../ui/icons.ts';
+import { Comparing } from './comparing.ts';
 import { acceptDrops } from './drop.ts';
 import { History } from './history.ts';
 import { listenToKeys } from './keyboard.ts';
@@ -31,31 +30,35 @@ export class App {
   private readonly stage: Stage = new Stage(() => this.settings, {
     refresh: () => this.refresh(),
     opened: (formula) => this.opened(formula),
-    measured: (measures) => this.indicators.update(measures),
+    measured: (measures) => {
+      this.indicators.update(measures);
+      this.comparing.setFirst(measures);
+    },
     setStatus: (sentence) => this.setup.setStatus(sentence),
     done: () => undefined,
     stepped: () => undefined,
     tell: (error) => this.tell(error),
   });
   private readonly history = new History((link) => void this.follow(decodeSettings(link)));
+  private readonly comparing = new Comparing(
+    this.stage,
+    () => document.querySelector('.stage'),
+    (error) => this.tell(error),
+  );
   private readonly messages = makeMessages();
   private readonly indicators = makeIndicators({
     pick: (measure, range) => this.pick(measure, range),
     worst: () => this.flyToWorst(),
   });
   private readonly pointed = h('output', { class: 'pointed', hidden: true });
-  private readonly help = makeHelp(() => this.version);
-  private readonly embedding = makeEmbedDialog((done) =>
-    this.messages.show({ kind: 'note', text: done ? 'The code is copied.' : 'The code is selected; copy it from there.' }),
-  );
   private readonly header = makeHeader({
     copyLink: () => void this.copyLink(),
-    embed: () => this.embedding.show(this.link(), this.stage.caption),
+    embed: () => void this.showEmbed(),
     undo: () => this.history.undo(),
     redo: () => this.history.redo(),
     save: (format) => void this.save(format),
     toggleTheme,
-    help: () => this.help.showModal(),
+    help: () => void this.showHelp(),
   });
   private readonly inside = makeLookInside({
     change: (inside) => this.change({ inside }),
@@ -86,6 +89,7 @@ export class App {
       this.settings.options[name] = value;
       void this.stage.run.forget();
     },
+    compareWith: (compare) => this.change({ compare }),
     run: () => void this.stage.run.start('play'),
     stop: () => void this.stage.run.stop(),
   });
@@ -125,8 +129,6 @@ export class App {
         this.indicators.element,
       ),
       this.messages.element,
-      this.help,
-      this.embedding.element,
     );
     this.listen();
     void this.stage.show();
@@ -155,7 +157,7 @@ export class App {
         toggleMark: (mark) => this.toggleMark(mark),
         setPace: (pace) => this.setPace(pace),
         openFile: () => this.setup.openFileDialog(),
-        help: () => this.help.showModal(),
+        help: () => void this.showHelp(),
         history: this.history,
         worst: () => this.flyToWorst(),
         inside: this.inside,
@@ -311,6 +313,7 @@ export class App {
     this.setup.update({
       mesh: settings.mesh,
       options: settings.options,
+      compare: settings.compare,
       running: workshop.running,
       summary: subject.empty ? '' : summaryOf(settings.mesh, subject.initial),
     });
@@ -320,6 +323,7 @@ export class App {
     this.tools.setLegend(legendOf(settings.colouring, picture.colours, player.iterations));
     this.start_.hidden = run.hasRun || subject.empty;
     this.indicators.setIrregular(player.atEnd && player.complete ? run.irregular : null);
+    this.comparing.update(settings);
     this.rewriteLink();
   }
 
@@ -335,6 +339,20 @@ export class App {
     this.history.record(link);
     this.header.update(this.history);
     history.replaceState(null, '', `#${link}`);
+  }
+
+  private async showHelp(): Promise<void> {
+    const { makeHelp } = await import('../panels/help.ts');
+    showOnce(makeHelp(() => this.version)).showModal();
+  }
+
+  private async showEmbed(): Promise<void> {
+    const { makeEmbedDialog } = await import('../panels/embed_dialog.ts');
+    const dialog = makeEmbedDialog((done) =>
+      this.messages.show({ kind: 'note', text: done ? 'The code is copied.' : 'The code is selected; copy it from there.' }),
+    );
+    showOnce(dialog.element);
+    dialog.show(this.link(), this.stage.caption);
   }
 
   private async copyLink(): Promise<void> {
@@ -377,10 +395,4 @@ export class App {
     const lost = error instanceof LoadError || error instanceof CrashError;
     this.messages.show({ kind: 'error', text, ...(lost ? { action: this.restartAction() } : {}) });
   }
-}
-
-/** What is shown alone, in units of its measure. */
-function pickedRange({ measure, low, high }: Settings['inside']['quality']): [number, number] | null {
-  if (low <= 0 && high >= 1) return null;
-  return measure === 'length' ? [low / (1 - low), high < 1 ? high / (1 - high) : Infinity] : [low, high];
 }

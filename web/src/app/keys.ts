@@ -4,6 +4,7 @@ import type { Player } from '../replay/player.ts';
 import type { Picture } from '../stage/picture.ts';
 import type { RunControl } from '../stage/run_control.ts';
 import { colourings, paces, type Mark, type Pace, type Settings } from '../state/settings.ts';
+import { cameraKeys } from './camera_keys.ts';
 import type { History } from './history.ts';
 import type { KeyActions } from './keyboard.ts';
 
@@ -54,7 +55,7 @@ export function keyActions(host: KeyHost): KeyActions {
       const { colouring } = host.settings();
       host.change({ colouring: colourings[(colourings.indexOf(colouring) + 1) % colourings.length] });
     },
-    f: () => host.picture.fit(),
+    ...cameraKeys(() => host.picture),
     i: hexes(() => inside.setOpen(!inside.isOpen())),
     x: cut(0),
     y: cut(1),

@@ -6,6 +6,7 @@ import type { MeshArrays } from '../../../wasm/session.ts';
 import controlsSheet from '../../style/controls.css?inline';
 import stageSheet from '../../style/stage.css?inline';
 import tokensSheet from '../../style/tokens.css?inline';
+import { cameraKeys } from '../app/camera_keys.ts';
 import { listenToKeys } from '../app/keyboard.ts';
 import { makeTransport } from '../panels/transport.ts';
 import { makeLegend } from '../panels/legend.ts';
@@ -240,7 +241,7 @@ export class PillowMeshElement extends Base {
         'Shift+ArrowRight': () => this.stage?.player.stepIteration(1),
         Home: () => void this.seek(0),
         End: () => void this.seek('last'),
-        f: () => this.fit(),
+        ...cameraKeys(() => this.stage?.picture),
       },
       root,
     );

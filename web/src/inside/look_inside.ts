@@ -113,3 +113,9 @@ export function keptCells(
     return { heights, low, high };
   }
 }
+
+/** What is shown alone, in units of its measure. */
+export function pickedRange({ measure, low, high }: Inside['quality']): [number, number] | null {
+  if (low <= 0 && high >= 1) return null;
+  return measure === 'length' ? [low / (1 - low), high < 1 ? high / (1 - high) : Infinity] : [low, high];
+}

@@ -1,4 +1,5 @@
 // The code that puts what is shown into another page: as the element, as a frame, or in Markdown.
+import '../../style/dialogs.css';
 import { h } from '../ui/dom.ts';
 
 export const snippetKinds = ['element', 'frame', 'markdown'] as const;

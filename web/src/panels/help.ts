@@ -1,4 +1,5 @@
 // What the page shows, and its keys.
+import '../../style/dialogs.css';
 import { h } from '../ui/dom.ts';
 
 const keys: readonly [string, string][] = [
@@ -13,6 +14,8 @@ const keys: readonly [string, string][] = [
   ['X Y Z', 'cut it across an axis, then from the other side'],
   ['E', 'its irregular edges'],
   ['F W', 'show the whole mesh, the worst cell'],
+  ['Ctrl ← → ↑ ↓', 'move the picture, turn hexes'],
+  [', .', 'zoom out, zoom in'],
   ['Ctrl+Z Ctrl+Y', 'undo, redo'],
   ['O', 'open a mesh file'],
   ['?', 'this help'],

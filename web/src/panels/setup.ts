@@ -1,6 +1,7 @@
 // What to adapt and how: case or mesh, metric, options, run.
 import type { Case } from '../../../wasm/session.ts';
 import { figures, type Figure } from '../data/figures.ts';
+import { rivals } from '../data/rivals.ts';
 import type { MeshChoice, OptionName, Options } from '../state/settings.ts';
 import { field, h } from '../ui/dom.ts';
 import { icon } from '../ui/icons.ts';
@@ -13,6 +14,7 @@ export interface SetupActions {
   chooseFile(file: File): void;
   changeFormula(text: string): void;
   changeOption(name: OptionName, value: string): void;
+  compareWith(rival: string): void;
   run(): void;
   stop(): void;
 }
@@ -21,7 +23,7 @@ export interface Setup {
   element: HTMLElement;
   formula: FormulaField;
   setCases(cases: readonly Case[]): void;
-  update(state: { mesh: MeshChoice; options: Options; running: boolean; summary: string }): void;
+  update(state: { mesh: MeshChoice; options: Options; compare: string; running: boolean; summary: string }): void;
   /** What the run is doing, or how it ended. */
   setStatus(text: string): void;
   openFileDialog(): void;
@@ -165,6 +167,11 @@ export function makeSetup(actions: SetupActions): Setup {
       ),
     ),
   );
+  const rival = h(
+    'select',
+    { id: 'compare', onchange: () => actions.compareWith(rival.value) },
+    ...rivals.map(({ value, label }) => h('option', { value }, label)),
+  );
   const summary = h('p', { class: 'hint', id: 'mesh-summary' });
   const controls = Object.fromEntries(
     optionFields.map((spec) => [spec.name, optionControl(spec, actions.changeOption)]),
@@ -201,6 +208,7 @@ export function makeSetup(actions: SetupActions): Setup {
         return row;
       }),
     ),
+    field('Compare with', rival),
     h('div', { class: 'run-box' }, run, status),
   );
 
@@ -222,6 +230,7 @@ export function makeSetup(actions: SetupActions): Setup {
       summary.textContent = state.summary;
       if (document.activeElement !== grid) grid.value = state.mesh.kind === 'grid' ? state.mesh.spec : '';
       for (const { name } of optionFields) controls[name].value = state.options[name];
+      rival.value = state.compare;
       running = state.running;
       run.textContent = running ? 'Stop' : 'Run';
       run.classList.toggle('stop', running);

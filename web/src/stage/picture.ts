@@ -2,7 +2,6 @@
 import type { Measures } from '../../../wasm/protocol.ts';
 import type { MeshArrays } from '../../../wasm/session.ts';
 import { defaultInside, isFiltered, passes, type Inside, type QualityMeasure } from '../inside/look_inside.ts';
-import { chordThrough, irregularVertices, neighboursOf, type Chord } from '../inside/chords.ts';
 import { cellLengths, scaledJacobians } from '../inside/measures.ts';
 import type { Drawing } from '../export/svg.ts';
 import { cellWord } from '../replay/caption.ts';
@@ -11,11 +10,9 @@ import { ReplayMesh } from '../replay/replay_mesh.ts';
 import { sceneAfter } from '../replay/scene.ts';
 import { defaultMarks, type CameraPose, type Colouring, type Mark } from '../state/settings.ts';
 import { h } from '../ui/dom.ts';
-import { sampleEllipses } from '../viewport/ellipse_samples.ts';
-import { sampleIsolines } from '../viewport/isolines.ts';
 import { colourMaps, isDark, readPalette } from '../viewport/palette.ts';
 import type { InsideReport } from '../viewport/hex_body.ts';
-import { cellEdges, segmentsOf } from '../viewport/segments.ts';
+import type { Pointing } from './pointing.ts';
 import type { Viewport } from '../viewport/viewport.ts';
 
 export interface Look {
@@ -28,6 +25,8 @@ export class Picture {
   readonly host = h('div', { class: 'picture', role: 'img', 'aria-label': 'The mesh', 'aria-describedby': 'caption' });
   /** Called when the visitor has moved the camera. */
   onPose: () => void = () => undefined;
+  /** Called while the camera moves. */
+  onMove: () => void = () => undefined;
   /** Called with a sentence when drawing is impossible or comes back (null). */
   onProblem: (sentence: string | null) => void = () => undefined;
   /** Called when something is to be drawn that was not sampled. */
@@ -46,9 +45,7 @@ export class Picture {
   private lengths = new Float64Array(0);
   private jacobians = { changes: -1, values: new Float64Array(0) };
   private dark = false;
-  private pointed = -1;
-  private pinned = -1;
-  private neighbours: { mesh: ReplayMesh; changes: number; of: Int32Array } | null = null;
+  private pointing: Pointing | null = null;
   /** Called with what is told of the cell that is pointed at, null when there is none. */
   onPoint: (sentence: string | null) => void = () => undefined;
   private lastPose: CameraPose | null = null;
@@ -61,9 +58,11 @@ export class Picture {
   /** Loads the drawing code; afterwards the mesh is shown, if the browser can. */
   async load(): Promise<void> {
     if (this.viewport) return;
+    let make;
     try {
-      const { Viewport } = await import('../viewport/viewport.ts');
+      const [{ Viewport }, pointing] = await Promise.all([import('../viewport/viewport.ts'), import('./pointing.ts')]);
       if (this.viewport) return;
+      make = pointing.Pointing;
       this.viewport = new Viewport(this.host);
     } catch (error) {
       const missing = !document.createElement('canvas').getContext('webgl2');
@@ -74,8 +73,9 @@ export class Picture {
       );
       return;
     }
-    this.listenToPointer();
+    this.pointing = new make(this, this.viewport, this.player);
     this.viewport.onPose = () => this.onPose();
+    this.viewport.onMove = () => this.onMove();
     this.viewport.onContext = (lost) =>
       this.onProblem(lost ? 'The graphics driver has dropped the picture; it comes back when it can.' : null);
     this.retheme();
@@ -88,6 +88,7 @@ export class Picture {
     this.lastPose = this.pose;
     this.viewport?.dispose();
     this.viewport = null;
+    this.pointing = null;
   }
 
   get available(): boolean {
@@ -153,6 +154,7 @@ export class Picture {
   async refreshEllipses(initial: MeshArrays, tensors: (points: Float64Array) => Promise<Float64Array>): Promise<void> {
     const { mesh } = this.player;
     if (!this.viewport || initial.dim !== 2) return;
+    const { sampleEllipses } = await import('../viewport/ellipse_samples.ts');
     const samples = await sampleEllipses(new ReplayMesh(initial), tensors);
     if (mesh === this.player.mesh) this.viewport?.setEllipses(samples.centres, samples.tensors);
     await this.refreshIsolines(initial, tensors);
@@ -163,12 +165,14 @@ export class Picture {
     tensors: (points: Float64Array) => Promise<Float64Array>,
   ): Promise<void> {
     const { mesh } = this.player;
-    const segments = this.look.marks.isolines ? await sampleIsolines(new ReplayMesh(initial), tensors) : new Float32Array(0);
+    if (!this.look.marks.isolines) return this.viewport?.setIsolines(new Float32Array(0));
+    const { sampleIsolines } = await import('../viewport/isolines.ts');
+    const segments = await sampleIsolines(new ReplayMesh(initial), tensors);
     if (mesh === this.player.mesh) this.viewport?.setIsolines(segments);
   }
 
   clearEllipses(): void {
-    this.pointed = this.pinned = -1;
+    this.pointing?.forget();
     this.viewport?.setIsolines(new Float32Array(0));
     this.viewport?.setEllipses(new Float64Array(0), new Float64Array(0));
   }
@@ -198,6 +202,11 @@ export class Picture {
   /** From the mesh to the eye; null when nothing is drawn. */
   get direction(): number[] | null {
     return this.viewport?.direction ?? null;
+  }
+
+  /** Moves or turns, and zooms; see Viewport.nudge. */
+  nudge(right: number, up: number, zoom = 1): void {
+    this.viewport?.nudge(right, up, zoom);
   }
 
   lookFrom(direction: number[]): void {
@@ -231,14 +240,15 @@ export class Picture {
     this.paint();
   }
 
-  private paint(): void {
+  /** Colours and marks anew. */
+  paint(): void {
     const { mesh, events, index } = this.player;
     this.viewport?.setEllipseStrength(index > 0 ? 0.42 : 1);
     const { quality } = this.look.inside;
     const values = isFiltered(quality) ? this.measure(quality.measure) : null;
     const faded = (cell: number): boolean => values !== null && !passes(quality, values[cell]);
-    this.drawIrregular();
-    const chords = this.pointedChords().map(({ cells }) => cells);
+    this.pointing?.draw(this.look.marks.irregular && mesh.dim === 2);
+    const chords = this.pointing?.chords().map(({ cells }) => cells) ?? [];
     const report = this.viewport?.setScene(mesh, sceneAfter(events, index), this.valueOf(mesh), faded, chords);
     this.onInside(report ?? null);
   }
@@ -253,91 +263,7 @@ export class Picture {
 
   /** Flies to a cell, draws around it, and tells its numbers. */
   pin(cell: number): void {
-    const { mesh } = this.player;
-    const { dim, cornerCount } = mesh;
-    const corners = Array.from(mesh.cells.subarray(cornerCount * cell, cornerCount * (cell + 1)));
-    const middle = Array.from({ length: dim }, (_, d) =>
-      corners.reduce((sum, v) => sum + mesh.points[dim * v + d] / cornerCount, 0),
-    );
-    const reach = Math.max(
-      ...corners.map((v) => Math.hypot(...middle.map((x, d) => mesh.points[dim * v + d] - x))),
-    );
-    const { low, high } = mesh.bounds();
-    const size = Math.max(...low.map((x, d) => high[d] - x));
-    this.pinned = cell;
-    const direction = dim === 3 ? { direction: this.direction ?? undefined } : {};
-    this.pose = { target: middle, zoom: Math.max(1, size / (14 * reach)), ...direction } as CameraPose;
-    this.pointAt(cell);
-    this.onPose();
-  }
-
-  private listenToPointer(): void {
-    const { canvas } = this.viewport!;
-    let frame = 0;
-    const point = (event: PointerEvent): void => {
-      cancelAnimationFrame(frame);
-      if (event.pointerType === 'mouse' && event.buttons !== 0) return;
-      frame = requestAnimationFrame(() => {
-        if (this.viewport && !this.player.playing) this.pointAt(this.viewport.cellAt(event.clientX, event.clientY));
-      });
-    };
-    canvas.addEventListener('pointermove', (event) => event.pointerType === 'mouse' && point(event));
-    canvas.addEventListener('click', (event) => point(event as PointerEvent));
-    canvas.addEventListener('pointerleave', (event) => {
-      cancelAnimationFrame(frame);
-      if (event.pointerType === 'mouse') this.pointAt(-1);
-    });
-  }
-
-  private pointAt(cell: number): void {
-    if (cell === this.pointed) return;
-    this.pointed = cell;
-    this.paint();
-    this.onPoint(cell < 0 ? null : this.describe(cell));
-  }
-
-  private describe(cell: number): string {
-    const { dim } = this.player.mesh;
-    const chords = this.pointedChords();
-    const count = ({ cells, closed }: Chord): string => `${cells.length}${closed ? ' (closed)' : ''}`;
-    const t = this.lengths[cell];
-    const numbers = [
-      ['η', this.shapes[cell]],
-      ['l', t / (1 - t)],
-      ['scaled Jacobian', this.measure('jacobian')[cell]],
-    ]
-      .filter(([, value]) => Number.isFinite(value))
-      .map(([name, value]) => `${name} ${(value as number).toFixed(2)}`);
-    const many = cellWord(dim, 2);
-    return `${numbers.join(', ')}. ${dim === 2 ? 'Chords' : 'Sheets'} of ${chords.map(count).join(' and ')} ${many}.`;
-  }
-
-  /** Chords, in 3D two of the sheets, that cross in the cell pointed at. */
-  private pointedChords(): Chord[] {
-    const { mesh } = this.player;
-    const cell = this.pointed;
-    if (cell < 0 || cell >= mesh.cellCount || !mesh.alive(cell)) return [];
-    const axes = mesh.dim === 2 ? [0, 1] : [0, 1, 2];
-    return axes.map((axis) => chordThrough(mesh, this.neighboursNow(), cell, axis));
-  }
-
-  private neighboursNow(): Int32Array {
-    const { mesh } = this.player;
-    if (this.neighbours?.mesh !== mesh || this.neighbours.changes !== mesh.reconnections)
-      this.neighbours = { mesh, changes: mesh.reconnections, of: neighboursOf(mesh) };
-    return this.neighbours.of;
-  }
-
-  private drawIrregular(): void {
-    const { mesh } = this.player;
-    const wanted = this.look.marks.irregular && mesh.dim === 2;
-    const none = new Int32Array(0);
-    const [fewer, more] = wanted ? irregularVertices(mesh, this.neighboursNow()) : [none, none];
-    const points = (vertices: Int32Array): Float32Array =>
-      Float32Array.from([...vertices].flatMap((v) => [mesh.points[2 * v], mesh.points[2 * v + 1], 0]));
-    this.viewport?.setIrregular(points(fewer), points(more));
-    const pinned = this.pinned >= 0 && this.pinned < mesh.cellCount && mesh.alive(this.pinned);
-    this.viewport?.setPin(pinned ? segmentsOf(mesh, cellEdges(mesh, this.pinned)) : new Float32Array(0));
+    this.pointing?.pin(cell);
   }
 
   /** 0 to 1 for each cell, as its colour map has it; -1: no colour. */

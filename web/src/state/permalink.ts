@@ -27,6 +27,7 @@ export const stateNames = [
   'quality',
   'cells',
   'edges',
+  'compare',
   'pace',
   'event',
   'view',
@@ -60,6 +61,7 @@ export function encodeSettings(settings: Settings): string {
     marks.filter((mark) => settings.marks[mark] === to && standard.marks[mark] !== to).join(',');
   for (const [name, list] of [['hide', switched(false)], ['show', switched(true)]]) if (list) query.set(name, list);
   for (const [name, value] of Object.entries(encodeInside(settings.inside))) query.set(name, value);
+  if (settings.compare) query.set('compare', settings.compare);
   if (settings.pace !== standard.pace) query.set('pace', settings.pace);
   if (settings.event !== null) query.set('event', settings.event === lastEvent ? 'last' : String(settings.event));
   if (settings.camera) query.set('view', encodeCamera(settings.camera));
@@ -83,6 +85,7 @@ export function decodeSettings(fragment: string): Settings {
     if ((get('hide') ?? '').split(',').includes(mark)) settings.marks[mark] = false;
     if ((get('show') ?? '').split(',').includes(mark)) settings.marks[mark] = true;
   }
+  settings.compare = get('compare') ?? '';
   settings.pace = paces.find((p) => p === get('pace')) ?? settings.pace;
   settings.inside = decodeInside(get);
   const event = get('event') === 'last' ? lastEvent : Number.parseInt(get('event') ?? '', 10);

@@ -59,6 +59,8 @@ export interface Settings {
   marks: Record<Mark, boolean>;
   /** In 3D: what is cut away and made transparent. */
   inside: Inside;
+  /** What the answer is compared with, see app/compare.ts; empty: nothing. */
+  compare: string;
   pace: Pace;
   /** Number of events shown, `lastEvent` for all; null: from the start. */
   event: number | null;
@@ -74,6 +76,7 @@ export function defaultSettings(): Settings {
     colouring: 'plain',
     marks: { ...defaultMarks },
     inside: defaultInside(),
+    compare: '',
     pace: 'auto',
     event: null,
     camera: null,

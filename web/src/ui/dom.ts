@@ -57,3 +57,10 @@ export function debounce<A extends unknown[]>(wait: number, action: (...args: A)
     timer = setTimeout(() => action(...args), wait);
   };
 }
+
+/** Puts a dialog into the page until it is closed. */
+export function showOnce(dialog: HTMLDialogElement): HTMLDialogElement {
+  document.body.append(dialog);
+  dialog.addEventListener('close', () => dialog.remove());
+  return dialog;
+}

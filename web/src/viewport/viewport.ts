@@ -20,6 +20,8 @@ const firstDirection = new Vector3(0.55, -0.72, 0.42);
 export class Viewport {
   /** Called when the visitor has moved the camera. */
   onPose: () => void = () => undefined;
+  /** Called while the camera moves. */
+  onMove: () => void = () => undefined;
   /** Called when the graphics context is lost (true) and restored (false). */
   onContext: (lost: boolean) => void = () => undefined;
 
@@ -48,6 +50,8 @@ export class Viewport {
   private inside: Inside = defaultInside();
   private origins: Origins | undefined;
   private moved = false;
+  /** The visitor's hand is on the camera. */
+  private touched = false;
   private frame = 0;
   private animation: { start: number; duration: number } | null = null;
   private shown: Record<Mark, boolean> = { ...defaultMarks };
@@ -63,8 +67,16 @@ export class Viewport {
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.zoomToCursor = true;
     this.controls.zoomSpeed = 1.4;
-    this.controls.addEventListener('change', () => this.requestRender());
-    this.controls.addEventListener('end', () => this.poseChanged());
+    this.controls.addEventListener('change', () => {
+      this.moved ||= this.touched;
+      this.requestRender();
+      this.onMove();
+    });
+    this.controls.addEventListener('start', () => (this.touched = true));
+    this.controls.addEventListener('end', () => {
+      this.touched = false;
+      this.poseChanged();
+    });
     this.canvas.addEventListener('wheel', () => this.poseChanged(), { passive: true });
     this.canvas.addEventListener('dblclick', () => this.fit());
     this.canvas.addEventListener('webglcontextlost', (event) => {
@@ -234,6 +246,25 @@ export class Viewport {
     this.camera.updateMatrixWorld();
     const matrix = this.camera.projectionMatrix.clone().multiply(this.camera.matrixWorldInverse);
     return this.faces.cellAt(x, y, matrix);
+  }
+
+  /** Moves the picture, in 3D turns it, by shares of its height; zooms by a factor. */
+  nudge(right: number, up: number, zoom: number): void {
+    const { target } = this.controls;
+    const eye = this.camera.position.clone().sub(target);
+    const height = (this.camera.top - this.camera.bottom) / this.camera.zoom;
+    if (this.dim === 2) {
+      target.x += right * height;
+      target.y += up * height;
+    } else {
+      const turn = Math.atan2(eye.y, eye.x) + 2 * right;
+      const tilt = Math.atan2(eye.z, Math.hypot(eye.x, eye.y)) + 2 * up;
+      const flat = Math.cos(Math.min(1.55, Math.max(-1.55, tilt)));
+      eye.set(flat * Math.cos(turn), flat * Math.sin(turn), Math.sin(Math.min(1.55, Math.max(-1.55, tilt))));
+    }
+    this.moved = true;
+    this.pose({ target: target.toArray(), zoom: this.camera.zoom * zoom, direction: eye.normalize().toArray() });
+    this.onPose();
   }
 
   /** Looks at a mesh of hexahedra along a direction, from the mesh to the eye. */
