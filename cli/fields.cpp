@@ -13,7 +13,8 @@ namespace {
 
 bool is_vtk(const std::string& name) {
   std::string e = std::filesystem::path(name).extension().string();
-  std::transform(e.begin(), e.end(), e.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  std::transform(e.begin(), e.end(), e.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   return e == ".vtk" || e == ".vtu";
 }
 
@@ -81,8 +82,8 @@ Status write_with_fields(const Mesh<Dim>& mesh, const std::optional<AnySolution>
   if (!from) return write_mesh_file(mesh, flags.output, flags.write);
   auto fields = carry(std::get<Solution<Dim>>(*from), mesh);
   if (!fields) return Status::bad_input("the fields cannot be carried: " + fields.status().message);
-  const auto of_cells =
-      static_cast<std::size_t>(std::count_if(fields->begin(), fields->end(), [](const FieldArray& f) { return f.of_cells; }));
+  const auto of_cells = static_cast<std::size_t>(
+      std::count_if(fields->begin(), fields->end(), [](const FieldArray& f) { return f.of_cells; }));
   note = "carried " + count(fields->size() - of_cells, "points") + " (multilinear interpolation), " +
          count(of_cells, "cells") + " (means)";
   if (is_vtk(flags.output)) return write_mesh_file(mesh, flags.output, flags.write, std::move(*fields));

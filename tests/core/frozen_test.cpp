@@ -110,7 +110,8 @@ TEST_CASE("frozen cells in the middle of a mesh stay, with the same corners") {
 TEST_CASE("a frozen curve inside the domain, by the number of its group, is written with its group") {
   auto input = to_input(make_grid<2>({8, 8}, Point<2>(0, 0), Point<2>(1, 1)));
   input.facet_groups.push_back({77, ""});
-  for (int i = 0; i < 8; ++i) input.facets.push_back({{4 * 9 + i, 4 * 9 + i + 1}, static_cast<Index>(input.facet_groups.size()) - 1});
+  for (int i = 0; i < 8; ++i)
+    input.facets.push_back({{4 * 9 + i, 4 * 9 + i + 1}, static_cast<Index>(input.facet_groups.size()) - 1});
   BoundaryOptions options;
   options.freeze = {"77"};
   const auto before = *make_mesh(input, options);
@@ -131,7 +132,7 @@ TEST_CASE("a frozen curve inside the domain, by the number of its group, is writ
 
 TEST_CASE("required entities of a Medit file stay, and are required in what is written") {
   auto input = to_input(make_grid<2>({6, 6}, Point<2>(0, 0), Point<2>(1, 1)));
-  input.required_vertices = {24};          // in the middle
+  input.required_vertices = {24};  // in the middle
   input.required_facets = {{0, 1}, {5, 6}};
   input.required_cells = {35};
   const auto before = *make_mesh(input);

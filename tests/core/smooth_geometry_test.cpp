@@ -104,7 +104,8 @@ TEST_CASE("where the boundary is straight smooth geometry leaves every bit as it
     }
   }
   CHECK(longest_bend(*smooth_geometry<2>(make_grid<2>({3, 4}, Point<2>(0, 0), Point<2>(1, 2)).geometry)) == 0.0);
-  CHECK(longest_bend(*smooth_geometry<3>(make_grid<3>({2, 3, 4}, Point<3>(0, 0, 0), Point<3>(1, 2, .3)).geometry)) == 0.0);
+  CHECK(longest_bend(*smooth_geometry<3>(make_grid<3>({2, 3, 4}, Point<3>(0, 0, 0), Point<3>(1, 2, .3)).geometry)) ==
+        0.0);
   CHECK(longest_bend(*smooth_geometry<2>(corpus::ell(6).geometry)) == 0.0);
 }
 

@@ -43,7 +43,8 @@ double error(const Solution<Dim>& from, const Mesh<Dim>& to, const std::function
   REQUIRE(carried->size() == 1);
   REQUIRE((*carried)[0].values.size() == on.points.size());
   double most = 0.0;
-  for (std::size_t i = 0; i < on.points.size(); ++i) most = std::max(most, std::abs((*carried)[0].values[i] - f(on.points[i])));
+  for (std::size_t i = 0; i < on.points.size(); ++i)
+    most = std::max(most, std::abs((*carried)[0].values[i] - f(on.points[i])));
   return most;
 }
 
@@ -62,7 +63,8 @@ TEST_CASE("linear functions are carried exactly between any two meshes of a doma
   CHECK(error<2>(sampled<2>(old, plane), adapted(old, "h = .02 + .2*abs(x-.4)"), plane) < 1e-13);
   const auto solid = [](const Point<3>& p) { return 1 + 2 * p[0] - 3 * p[1] + p[2]; };
   const auto hexes = corpus::shaken(make_grid<3>({4, 4, 4}, Point<3>(0, 0, 0), Point<3>(1, 1, 1)), 0.25, 0.25, 7);
-  CHECK(error<3>(sampled<3>(hexes, solid), make_grid<3>({7, 6, 5}, Point<3>(0, 0, 0), Point<3>(1, 1, 1)), solid) < 1e-12);
+  CHECK(error<3>(sampled<3>(hexes, solid), make_grid<3>({7, 6, 5}, Point<3>(0, 0, 0), Point<3>(1, 1, 1)), solid) <
+        1e-12);
 }
 
 TEST_CASE("bilinear and trilinear functions are carried exactly from boxes, where triangles would not do") {
@@ -138,7 +140,8 @@ TEST_CASE("fields are written to VTK files and read back, groups apart") {
     for (const bool binary : {false, true}) {
       INFO(name << binary);
       const auto mesh = make_grid<2>({3, 2}, Point<2>(0, 0), Point<2>(3, 2));
-      const std::vector<FieldArray> fields{{"velocity", false, false, 3, {}}, {"id", true, true, 1, {}}, {"t<1", false, false, 1, {}}};
+      const std::vector<FieldArray> fields{
+          {"velocity", false, false, 3, {}}, {"id", true, true, 1, {}}, {"t<1", false, false, 1, {}}};
       auto with_values = fields;
       for (int i = 0; i < 36; ++i) with_values[0].values.push_back(0.1 * i - 1e-300);
       for (int i = 0; i < 6; ++i) with_values[1].values.push_back(i - 3);

@@ -62,8 +62,8 @@ std::array<double, Dim> solve(const std::array<Point<Dim>, Dim>& columns, const 
 template <int Dim>
 class Locator {
  public:
-  explicit Locator(const Solution<Dim>& from) : points_(from.points), cells_(from.cells), simplices_(simplices_of(from)),
-                                                tree_(from.points, simplices_) {
+  explicit Locator(const Solution<Dim>& from)
+      : points_(from.points), cells_(from.cells), simplices_(simplices_of(from)), tree_(from.points, simplices_) {
     // Cells at each vertex.
     first_.assign(points_.size() + 1, 0);
     for (const auto& cell : cells_)
@@ -76,8 +76,8 @@ class Locator {
   }
   [[nodiscard]] bool empty() const { return simplices_.empty(); }
 
-  /// The simplex says where to look: hexahedra whose facets are not flat are not the union of their tetrahedra, but what
-  /// contains the point is around one of the vertices.
+  /// The simplex says where to look: hexahedra whose facets are not flat are not the union of their tetrahedra, but
+  /// what contains the point is around one of the vertices.
   CellPlace<Dim> find(const Point<Dim>& p) const {
     const auto near = tree_.nearest(points_, simplices_, p);
     const CellPlace<Dim> place = find_around(near, p);
@@ -112,9 +112,8 @@ class Locator {
     return all;
   }
   [[nodiscard]] bool owns(CellId c, const Simplex<Dim>& s) const {
-    return std::all_of(s.begin(), s.end(), [&](VertexId v) {
-      return std::find(cells_[c].begin(), cells_[c].end(), v) != cells_[c].end();
-    });
+    return std::all_of(s.begin(), s.end(),
+                       [&](VertexId v) { return std::find(cells_[c].begin(), cells_[c].end(), v) != cells_[c].end(); });
   }
   /// Newton on the multilinear map, from the middle; then cut off at the cell.
   CellPlace<Dim> place_in(CellId c, const Point<Dim>& p) const {

@@ -6,8 +6,9 @@
 namespace pillowmesh {
 namespace {
 
-constexpr double kTolerance = 1e-6;  ///< of the shortest edge: what is left of coordinates that a file gives in 7 digits
-constexpr Index kFewest = 5;         ///< there is a circle through any three, and through an isosceles trapezium
+constexpr double kTolerance =
+    1e-6;                     ///< of the shortest edge: what is left of coordinates that a file gives in 7 digits
+constexpr Index kFewest = 5;  ///< there is a circle through any three, and through an isosceles trapezium
 
 class Fitter {
  public:

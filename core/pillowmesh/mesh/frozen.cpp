@@ -252,12 +252,14 @@ bool must_stay(const Mesh<Dim>& mesh, CellId c, int f) {
   if constexpr (Dim == 3)
     for (int e = 0; e < 12; ++e) {
       const int from = Cell<3>::edge_from(e), to = Cell<3>::edge_to(e);
-      if (!Cell<3>::corner_on_facet(from, f) || !Cell<3>::corner_on_facet(to, f) || !is_frozen_edge(mesh, {c, e})) continue;
+      if (!Cell<3>::corner_on_facet(from, f) || !Cell<3>::corner_on_facet(to, f) || !is_frozen_edge(mesh, {c, e}))
+        continue;
       bool by_itself = true;  // no frozen facet on the boundary has it
       for_each_cell_at_edge(mesh, {c, e}, [&](CellId n, int at) {
         for (int g = 0; g < 6; ++g)
-          if (Cell<3>::corner_on_facet(Cell<3>::edge_from(at), g) && Cell<3>::corner_on_facet(Cell<3>::edge_to(at), g) &&
-              mesh.on_boundary(n, g) && is_frozen_facet(mesh, mesh.facet_vertices(n, g)))
+          if (Cell<3>::corner_on_facet(Cell<3>::edge_from(at), g) &&
+              Cell<3>::corner_on_facet(Cell<3>::edge_to(at), g) && mesh.on_boundary(n, g) &&
+              is_frozen_facet(mesh, mesh.facet_vertices(n, g)))
             by_itself = false;
       });
       if (by_itself) return true;
@@ -278,20 +280,19 @@ bool frozen_remain(const Mesh<Dim>& mesh, const std::vector<Corners<Dim>>& old_c
         const auto v = facet_of<3>(cell, f);
         if (is_frozen_facet(mesh, v) && !facet_exists(mesh, v)) return false;
       }
-    if (is_frozen_cell(mesh, cell) &&
-        !any_cell_at(mesh, cell[0], [&](const Corners<Dim>& now) { return now == cell; }))
+    if (is_frozen_cell(mesh, cell) && !any_cell_at(mesh, cell[0], [&](const Corners<Dim>& now) { return now == cell; }))
       return false;
   }
   return true;
 }
 
-#define PILLOWMESH_INSTANTIATE(Dim)                                                                  \
-  template Status freeze(Mesh<Dim>&, const MeshInput<Dim>&, const std::vector<std::string>&);        \
-  template void list_frozen(const Mesh<Dim>&, const std::vector<Index>&, MeshInput<Dim>&);           \
-  template bool is_frozen_edge(const Mesh<Dim>&, VertexId, VertexId);                                \
-  template bool is_frozen_facet(const Mesh<Dim>&, FacetCorners<Dim>);                                \
-  template bool is_frozen_cell(const Mesh<Dim>&, Corners<Dim>);                                      \
-  template bool must_stay(const Mesh<Dim>&, CellId, int);                                            \
+#define PILLOWMESH_INSTANTIATE(Dim)                                                           \
+  template Status freeze(Mesh<Dim>&, const MeshInput<Dim>&, const std::vector<std::string>&); \
+  template void list_frozen(const Mesh<Dim>&, const std::vector<Index>&, MeshInput<Dim>&);    \
+  template bool is_frozen_edge(const Mesh<Dim>&, VertexId, VertexId);                         \
+  template bool is_frozen_facet(const Mesh<Dim>&, FacetCorners<Dim>);                         \
+  template bool is_frozen_cell(const Mesh<Dim>&, Corners<Dim>);                               \
+  template bool must_stay(const Mesh<Dim>&, CellId, int);                                     \
   template bool frozen_remain(const Mesh<Dim>&, const std::vector<Corners<Dim>>&);
 PILLOWMESH_INSTANTIATE(2)
 PILLOWMESH_INSTANTIATE(3)

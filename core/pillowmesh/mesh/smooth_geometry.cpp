@@ -108,7 +108,7 @@ struct VertexNormals {
     for (std::size_t i = 0; i < g.facets.size(); ++i) {
       const auto& f = g.facets[i];
       for (int k = 0; k < 4; ++k) {
-        const Point<3> &p = g.points[f[k]], a = g.points[f[k ^ 1]] - p, b = g.points[f[k ^ 2]] - p;
+        const Point<3>&p = g.points[f[k]], a = g.points[f[k ^ 1]] - p, b = g.points[f[k ^ 2]] - p;
         const double sign = g.sign[i] * (k == 0 || k == 3 ? 1.0 : -1.0);
         entries.push_back({g.patch[i], f[k], sign * unit<3>(vector_product(a, b))});
       }
