@@ -1,5 +1,4 @@
 // The page: settings, a stage, the panels around it, and what happens between them.
-import { CrashError, LoadError } from '../../../wasm/loader.ts';
 import { CoreError } from '../../../wasm/session.ts';
 import { looksInside, pickedRange } from '../inside/look_inside.ts';
 import { makeHeader, type SaveFormat } from '../panels/header.ts';
@@ -21,7 +20,8 @@ import { History } from './history.ts';
 import { listenToKeys } from './keyboard.ts';
 import { keyActions } from './keys.ts';
 import { firstVisit } from './first_visit.ts';
-import { saveShown } from './saving.ts';
+import { messageOf } from './mishaps.ts';
+import type { Sketching } from './sketching.ts';
 import { followTheme, toggleTheme } from './theme.ts';
 
 export class App {
@@ -45,6 +45,7 @@ export class App {
     () => document.querySelector('.stage'),
     (error) => this.tell(error),
   );
+  private sketching: Sketching | null = null;
   private readonly messages = makeMessages();
   private readonly indicators = makeIndicators({
     pick: (measure, range) => this.pick(measure, range),
@@ -89,6 +90,7 @@ export class App {
       this.settings.options[name] = value;
       void this.stage.run.forget();
     },
+    sketch: () => void this.sketch(),
     compareWith: (compare) => this.change({ compare }),
     run: () => void this.stage.run.start('play'),
     stop: () => void this.stage.run.stop(),
@@ -251,9 +253,14 @@ export class App {
     }
   }
 
+  private async sketch(): Promise<void> {
+    const { Sketching } = await import('./sketching.ts');
+    this.sketching ??= new Sketching(this.stage, this.setup.sketchPlace, (error) => this.tell(error));
+    await this.sketching.toggle();
+  }
+
   private setPace(pace: Pace): void {
-    this.stage.player.pace = pace;
-    this.change({ pace });
+    this.change({ pace: (this.stage.player.pace = pace) });
   }
 
   // ---- looking
@@ -324,6 +331,7 @@ export class App {
     this.start_.hidden = run.hasRun || subject.empty;
     this.indicators.setIrregular(player.atEnd && player.complete ? run.irregular : null);
     this.comparing.update(settings);
+    this.sketching?.update();
     this.rewriteLink();
   }
 
@@ -371,6 +379,7 @@ export class App {
 
   private async save(format: SaveFormat): Promise<void> {
     try {
+      const { saveShown } = await import('./saving.ts');
       const name = await saveShown(format, this.stage);
       this.messages.show({ kind: 'note', text: `Saved ${name}.` });
     } catch (error) {
@@ -380,19 +389,12 @@ export class App {
 
   // ---- mishaps
 
-  private restartAction(): { label: string; run(): void } {
-    return {
-      label: 'Start again',
-      run: () => {
+  private tell(error: unknown): void {
+    this.messages.show(
+      messageOf(error, () => {
         this.stage.workshop.restart();
         void this.begin();
-      },
-    };
-  }
-
-  private tell(error: unknown): void {
-    const text = error instanceof Error ? error.message : String(error);
-    const lost = error instanceof LoadError || error instanceof CrashError;
-    this.messages.show({ kind: 'error', text, ...(lost ? { action: this.restartAction() } : {}) });
+      }),
+    );
   }
 }

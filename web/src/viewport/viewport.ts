@@ -238,6 +238,20 @@ export class Viewport {
     this.requestRender();
   }
 
+  /** In 2D: the place in the mesh's coordinates at a point of the window, and back. */
+  placeAt(clientX: number, clientY: number): [number, number] {
+    const box = this.canvas.getBoundingClientRect();
+    const at = new Vector3((2 * (clientX - box.left)) / box.width - 1, 1 - (2 * (clientY - box.top)) / box.height, 0);
+    const { x, y } = at.unproject(this.camera);
+    return [x, y];
+  }
+
+  screenOf(x: number, y: number): [number, number] {
+    const box = this.canvas.getBoundingClientRect();
+    const at = new Vector3(x, y, 0).project(this.camera);
+    return [box.left + ((at.x + 1) / 2) * box.width, box.top + ((1 - at.y) / 2) * box.height];
+  }
+
   /** The cell that is drawn at a point of the window; -1 for none. */
   cellAt(clientX: number, clientY: number): number {
     const box = this.canvas.getBoundingClientRect();
