@@ -197,6 +197,33 @@ describe('sketching', () => {
   });
 });
 
+describe('a picture', () => {
+  test('that is dropped becomes the metric: cells are fine along its edges', async () => {
+    await visit('#mesh=grid:8,8:0,1,0,1&metric=h %3D 0.3&hide=ellipses');
+    await page.evaluate(async () => {
+      const canvas = new OffscreenCanvas(64, 64);
+      const context = canvas.getContext('2d')!;
+      context.fillStyle = 'white';
+      context.fillRect(0, 0, 64, 64);
+      context.fillStyle = 'black';
+      context.fillRect(0, 0, 32, 64); // an edge in the middle
+      const data = new DataTransfer();
+      data.items.add(new File([await canvas.convertToBlob()], 'edge.png', { type: 'image/png' }));
+      document.dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
+    });
+    const ideal = page.locator('.facts > div', { hasText: 'Ideal' }).locator('dd');
+    await expect.poll(async () => Number((await ideal.innerText()).replace(/,/g, '')), eventually).toBeGreaterThan(1500);
+    expect(Number((await ideal.innerText()).replace(/,/g, ''))).toBeLessThan(2600);
+    await page.getByRole('button', { name: 'Run', exact: true }).click();
+    await ran();
+    await page.locator('h1').click();
+    await page.keyboard.press('End');
+    await page.waitForTimeout(800);
+    await page.screenshot({ path: join(screenshots, 'picture-metric.png') });
+    expect(complaints).toEqual([]);
+  });
+});
+
 describe('comparing', () => {
   test('lays a second answer over the first, with a slider between them', async () => {
     await visit('#case=circle2d&event=last&hide=ellipses');

@@ -3,7 +3,7 @@ import { CoreError } from '../../../wasm/session.ts';
 import { looksInside, pickedRange } from '../inside/look_inside.ts';
 import { makeHeader, type SaveFormat } from '../panels/header.ts';
 import { makeIndicators } from '../panels/indicators.ts';
-import { makeLookInside } from '../panels/look_inside.ts';
+import { makeLookInside } from '../panels/look_inside_later.ts';
 import { makeMessages } from '../panels/messages.ts';
 import { makePictureTools } from '../panels/picture_tools.ts';
 import { makeSetup } from '../panels/setup.ts';
@@ -19,6 +19,7 @@ import { acceptDrops } from './drop.ts';
 import { History } from './history.ts';
 import { listenToKeys } from './keyboard.ts';
 import { keyActions } from './keys.ts';
+import { isMetric, takeAsMetric } from './given_metric.ts';
 import { firstVisit } from './first_visit.ts';
 import { messageOf } from './mishaps.ts';
 import type { Sketching } from './sketching.ts';
@@ -150,7 +151,9 @@ export class App {
       this.refresh();
     });
     acceptDrops((file) => void this.openFile(file));
-    addEventListener('hashchange', () => void this.followLink());
+    addEventListener('hashchange', () => {
+      if (location.hash.slice(1) !== this.link()) void this.follow(decodeSettings(location.hash));
+    });
     addEventListener('resize', debounce(100, () => this.refresh()));
     listenToKeys(
       keyActions({
@@ -204,10 +207,6 @@ export class App {
     if (!done && this.stage.subject.empty) await this.stage.open({ kind: 'case', name: 'iso2d' }, '');
   }
 
-  private async followLink(): Promise<void> {
-    if (location.hash.slice(1) !== this.link()) await this.follow(decodeSettings(location.hash));
-  }
-
   /** Shows what a link, a figure or an earlier state says; computes only what has changed. */
   private async follow(next: Settings): Promise<void> {
     const { stage } = this;
@@ -233,6 +232,7 @@ export class App {
   }
 
   private openFile(file: File): Promise<void> {
+    if (isMetric(file)) return takeAsMetric(this.stage, file).catch((error: unknown) => this.tell(error));
     return this.stage.subject.openFile(file, (choice) => this.open(choice, ''));
   }
 

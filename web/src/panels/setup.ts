@@ -137,7 +137,7 @@ export function makeSetup(actions: SetupActions): Setup {
   });
   const fileInput = h('input', {
     type: 'file',
-    accept: meshEndings.join(','),
+    accept: [...meshEndings, '.sol', 'image/*'].join(','),
     class: 'unseen',
     tabindex: -1,
     'aria-label': 'Mesh file',
@@ -151,7 +151,7 @@ export function makeSetup(actions: SetupActions): Setup {
     'button',
     { type: 'button', class: 'plain wide', onclick: () => fileInput.click() },
     icon('open'),
-    'Open a mesh file',
+    'Open a mesh, a picture, a metric',
   );
   const paper = h(
     'div',

@@ -1,5 +1,6 @@
 // A picture that computes: mesh, metric, run, playback and drawing together, without any panel around it. The page and
 // the element <pillow-mesh> are both made of it.
+import type { MetricRequest } from '../../../wasm/metrics.ts';
 import type { Measures, RunResult } from '../../../wasm/protocol.ts';
 import { captionOf } from '../replay/caption.ts';
 import { Player, type Shown } from '../replay/player.ts';
@@ -121,7 +122,7 @@ export class Stage {
 
   /** Another metric on the same mesh, shown if it is still wanted then. Rejects when it is refused. */
   async setFormula(text: string, wanted: () => boolean = () => true): Promise<void> {
-    await this.workshop.setMetric(text);
+    await this.workshop.setMetric({ formula: text });
     if (!wanted()) return;
     this.settings().sketch = '';
     this.takeFormula(text, false);
@@ -136,8 +137,16 @@ export class Stage {
     settings.formula = '';
     if (strokes.length === 0) return void (await this.open(settings.mesh, ''));
     const formula = formulaOfSketch(strokes, this.extent / 6);
-    await this.workshop.setMetric(formula);
+    await this.workshop.setMetric({ formula });
     this.takeFormula(formula, false);
+  }
+
+  /** A metric made from a picture, a solution, ...: it belongs to the session and to no link. */
+  async setMadeMetric(request: MetricRequest): Promise<void> {
+    const nodal = await this.workshop.call('makeMetric', request);
+    await this.workshop.setMetric({ nodal });
+    this.settings().sketch = '';
+    this.takeFormula('', false);
   }
 
   /** The mesh's larger side. */
