@@ -232,7 +232,7 @@ export class App {
   }
 
   private openFile(file: File): Promise<void> {
-    if (isMetric(file)) return takeAsMetric(this.stage, file).catch((error: unknown) => this.tell(error));
+    if (isMetric(file)) return takeAsMetric(this.stage, file, this.messages).catch((error: unknown) => this.tell(error));
     return this.stage.subject.openFile(file, (choice) => this.open(choice, ''));
   }
 
@@ -240,7 +240,8 @@ export class App {
     const { mesh } = this.settings;
     this.setup.formula.setText(formula);
     this.setup.formula.setError(null);
-    this.indicators.setCase(mesh.kind === 'case' && this.settings.formula === '' ? mesh.name : null);
+    const own = mesh.kind === 'case' && formula === this.stage.subject.ownFormula(mesh);
+    this.indicators.setCase(own ? mesh.name : null);
     void this.stage.subject.idealCells().then((count) => this.indicators.setIdealCells(count));
   }
 

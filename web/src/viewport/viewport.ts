@@ -9,7 +9,7 @@ import { Ellipses } from './ellipses.ts';
 import { FaceLayer, faceMarks, type Origins } from './face_layer.ts';
 import { HexBody, type InsideReport } from './hex_body.ts';
 import type { Palette } from './palette.ts';
-import { boundaryEdges, facetEdges, segmentsOf } from './segments.ts';
+import { boundaryEdges, dotsAt, facetEdges, segmentsOf } from './segments.ts';
 import { Strokes } from './strokes.ts';
 import { Triad } from './triad.ts';
 
@@ -225,10 +225,8 @@ export class Viewport {
 
   /** Points of irregular vertices, three coordinates each. */
   setIrregular(fewer: Float32Array, more: Float32Array): void {
-    const dots = (points: Float32Array): Float32Array =>
-      Float32Array.from({ length: 2 * points.length }, (_, i) => points[3 * Math.floor(i / 6) + (i % 3)]);
-    this.fewer.setSegments(dots(fewer));
-    for (const strokes of this.more) strokes.setSegments(dots(more));
+    this.fewer.setSegments(dotsAt(fewer));
+    for (const strokes of this.more) strokes.setSegments(dotsAt(more));
     this.requestRender();
   }
 
