@@ -20,6 +20,7 @@ import {
 export * from './events.ts';
 export { readFile, writeFile, type Input } from './files.ts';
 export * from './loader.ts';
+export { makeMetric, type Dab, type GrayImage, type MetricRequest } from './metrics.ts';
 export * from './session.ts';
 
 /** The modules that come with this package; `sources` takes the place of some of them. */
@@ -29,6 +30,7 @@ export function packageModules(sources: Partial<ModuleSources> = {}): Modules {
     full: new URL('./pillowmesh_full.wasm', import.meta.url),
     3: new URL('./pillowmesh3d.wasm', import.meta.url),
     files: new URL('./pillowmesh_files.wasm', import.meta.url),
+    metrics: new URL('./pillowmesh_metrics.wasm', import.meta.url),
     ...sources,
   };
   return modulesFrom(all, readIfFile);

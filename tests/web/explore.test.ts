@@ -4,6 +4,7 @@ import { join } from 'node:path';
 import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
 import { snippetOf } from '../../web/src/panels/embed_dialog.ts';
+import { decodeSketch, encodeSketch, formulaOfSketch, simplified } from '../../web/src/sketch/sketch.ts';
 import { buildSite, openBrowser, screenshots, serveSite, type Serving } from './site.ts';
 
 let browser: Browser;
@@ -146,6 +147,80 @@ describe('looking', () => {
     await visit('#case=linear3d');
     await page.getByLabel('View from').selectOption('+x');
     await expect.poll(() => part('view')).toMatch(/;1,0,0$/);
+  });
+});
+
+describe('sketching', () => {
+  test('a stroke makes cells fine along it, at once; a link and undo keep it', async () => {
+    await visit('#mesh=grid:6,6:0,1,0,1&metric=h %3D 0.2&hide=ellipses');
+    await page.getByRole('button', { name: 'Sketch it instead' }).click();
+    await page.locator('.board').waitFor();
+    const { x, y, width } = await middle('.picture canvas');
+    const draw = async (from: number, to: number, lift: number): Promise<void> => {
+      await page.mouse.move(x + from, y + lift);
+      await page.mouse.down();
+      for (let i = 1; i <= 8; ++i) await page.mouse.move(x + from + ((to - from) * i) / 8, y + lift + 30 * Math.sin(i / 2));
+      await page.mouse.up();
+    };
+    await draw(-0.2 * width, 0.2 * width, -40);
+    await ran();
+    await expect.poll(() => part('sketch'), eventually).toMatch(/^0\.012,1:/);
+    const cells = async (): Promise<number> => Number((await page.locator('.facts dd').first().innerText()).replace(/,/g, ''));
+    await expect.poll(cells, eventually).toBeGreaterThan(300);
+    const one = await cells();
+    await page.getByRole('slider', { name: 'Stretch' }).fill('5');
+    await draw(-0.1 * width, 0.2 * width, 100);
+    await expect.poll(() => part('sketch')?.split(';').length, eventually).toBe(2);
+    await expect.poll(() => page.locator('#formula').inputValue(), eventually).toContain('theta = if');
+    await ran();
+    await expect.poll(async () => (await cells()) > 300 && (await cells()) !== one, eventually).toBe(true);
+    await page.screenshot({ path: join(screenshots, 'sketch.png') });
+    const { hash } = new URL(page.url());
+    const shown = await cells();
+    await page.context().close();
+    await visit(hash);
+    await expect.poll(cells, eventually).toBe(shown);
+    expect(complaints).toEqual([]);
+  });
+
+  test('is written and read back as it was, and simplified within its tolerance', () => {
+    const strokes = [{ size: 0.02, stretch: 4, points: [[0, 0], [0.5, -0.25]] as [number, number][] }];
+    expect(decodeSketch(encodeSketch(strokes))).toEqual(strokes);
+    expect(decodeSketch('nonsense;0.1,1:1;;x,y:1,2')).toEqual([]);
+    expect(formulaOfSketch([], 0.3)).toBe('h = 0.3');
+    expect(formulaOfSketch([{ size: 0.1, stretch: 1, points: [[1, 2]] }], 2)).toBe(
+      'd1 = sqrt((x - 1)^2 + (y - 2)^2);\nh = min(2, 0.1 + 0.25*d1)',
+    );
+    const line = Array.from({ length: 50 }, (_, i) => [i, i % 2 ? 0.05 : 0] as [number, number]);
+    expect(simplified(line, 0.1)).toEqual([[0, 0], [49, 0.05]]);
+    expect(simplified([[0, 0], [1, 1], [2, 0]], 0.1).length).toBe(3);
+  });
+});
+
+describe('a picture', () => {
+  test('that is dropped becomes the metric: cells are fine along its edges', async () => {
+    await visit('#mesh=grid:8,8:0,1,0,1&metric=h %3D 0.3&hide=ellipses');
+    await page.evaluate(async () => {
+      const canvas = new OffscreenCanvas(64, 64);
+      const context = canvas.getContext('2d')!;
+      context.fillStyle = 'white';
+      context.fillRect(0, 0, 64, 64);
+      context.fillStyle = 'black';
+      context.fillRect(0, 0, 32, 64); // an edge in the middle
+      const data = new DataTransfer();
+      data.items.add(new File([await canvas.convertToBlob()], 'edge.png', { type: 'image/png' }));
+      document.dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
+    });
+    const ideal = page.locator('.facts > div', { hasText: 'Ideal' }).locator('dd');
+    await expect.poll(async () => Number((await ideal.innerText()).replace(/,/g, '')), eventually).toBeGreaterThan(1500);
+    expect(Number((await ideal.innerText()).replace(/,/g, ''))).toBeLessThan(2600);
+    await page.getByRole('button', { name: 'Run', exact: true }).click();
+    await ran();
+    await page.locator('h1').click();
+    await page.keyboard.press('End');
+    await page.waitForTimeout(800);
+    await page.screenshot({ path: join(screenshots, 'picture-metric.png') });
+    expect(complaints).toEqual([]);
   });
 });
 

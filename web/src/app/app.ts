@@ -1,10 +1,9 @@
 // The page: settings, a stage, the panels around it, and what happens between them.
-import { CrashError, LoadError } from '../../../wasm/loader.ts';
 import { CoreError } from '../../../wasm/session.ts';
 import { looksInside, pickedRange } from '../inside/look_inside.ts';
 import { makeHeader, type SaveFormat } from '../panels/header.ts';
 import { makeIndicators } from '../panels/indicators.ts';
-import { makeLookInside } from '../panels/look_inside.ts';
+import { makeLookInside } from '../panels/look_inside_later.ts';
 import { makeMessages } from '../panels/messages.ts';
 import { makePictureTools } from '../panels/picture_tools.ts';
 import { makeSetup } from '../panels/setup.ts';
@@ -20,8 +19,10 @@ import { acceptDrops } from './drop.ts';
 import { History } from './history.ts';
 import { listenToKeys } from './keyboard.ts';
 import { keyActions } from './keys.ts';
+import { isMetric, takeAsMetric } from './given_metric.ts';
 import { firstVisit } from './first_visit.ts';
-import { saveShown } from './saving.ts';
+import { messageOf } from './mishaps.ts';
+import type { Sketching } from './sketching.ts';
 import { followTheme, toggleTheme } from './theme.ts';
 
 export class App {
@@ -45,6 +46,7 @@ export class App {
     () => document.querySelector('.stage'),
     (error) => this.tell(error),
   );
+  private sketching: Sketching | null = null;
   private readonly messages = makeMessages();
   private readonly indicators = makeIndicators({
     pick: (measure, range) => this.pick(measure, range),
@@ -89,6 +91,7 @@ export class App {
       this.settings.options[name] = value;
       void this.stage.run.forget();
     },
+    sketch: () => void this.sketch(),
     compareWith: (compare) => this.change({ compare }),
     run: () => void this.stage.run.start('play'),
     stop: () => void this.stage.run.stop(),
@@ -148,7 +151,9 @@ export class App {
       this.refresh();
     });
     acceptDrops((file) => void this.openFile(file));
-    addEventListener('hashchange', () => void this.followLink());
+    addEventListener('hashchange', () => {
+      if (location.hash.slice(1) !== this.link()) void this.follow(decodeSettings(location.hash));
+    });
     addEventListener('resize', debounce(100, () => this.refresh()));
     listenToKeys(
       keyActions({
@@ -202,10 +207,6 @@ export class App {
     if (!done && this.stage.subject.empty) await this.stage.open({ kind: 'case', name: 'iso2d' }, '');
   }
 
-  private async followLink(): Promise<void> {
-    if (location.hash.slice(1) !== this.link()) await this.follow(decodeSettings(location.hash));
-  }
-
   /** Shows what a link, a figure or an earlier state says; computes only what has changed. */
   private async follow(next: Settings): Promise<void> {
     const { stage } = this;
@@ -231,6 +232,7 @@ export class App {
   }
 
   private openFile(file: File): Promise<void> {
+    if (isMetric(file)) return takeAsMetric(this.stage, file, this.messages).catch((error: unknown) => this.tell(error));
     return this.stage.subject.openFile(file, (choice) => this.open(choice, ''));
   }
 
@@ -238,7 +240,8 @@ export class App {
     const { mesh } = this.settings;
     this.setup.formula.setText(formula);
     this.setup.formula.setError(null);
-    this.indicators.setCase(mesh.kind === 'case' && this.settings.formula === '' ? mesh.name : null);
+    const own = mesh.kind === 'case' && formula === this.stage.subject.ownFormula(mesh);
+    this.indicators.setCase(own ? mesh.name : null);
     void this.stage.subject.idealCells().then((count) => this.indicators.setIdealCells(count));
   }
 
@@ -251,9 +254,14 @@ export class App {
     }
   }
 
+  private async sketch(): Promise<void> {
+    const { Sketching } = await import('./sketching.ts');
+    this.sketching ??= new Sketching(this.stage, this.setup.sketchPlace, (error) => this.tell(error));
+    await this.sketching.toggle();
+  }
+
   private setPace(pace: Pace): void {
-    this.stage.player.pace = pace;
-    this.change({ pace });
+    this.change({ pace: (this.stage.player.pace = pace) });
   }
 
   // ---- looking
@@ -324,6 +332,7 @@ export class App {
     this.start_.hidden = run.hasRun || subject.empty;
     this.indicators.setIrregular(player.atEnd && player.complete ? run.irregular : null);
     this.comparing.update(settings);
+    this.sketching?.update();
     this.rewriteLink();
   }
 
@@ -371,6 +380,7 @@ export class App {
 
   private async save(format: SaveFormat): Promise<void> {
     try {
+      const { saveShown } = await import('./saving.ts');
       const name = await saveShown(format, this.stage);
       this.messages.show({ kind: 'note', text: `Saved ${name}.` });
     } catch (error) {
@@ -380,19 +390,12 @@ export class App {
 
   // ---- mishaps
 
-  private restartAction(): { label: string; run(): void } {
-    return {
-      label: 'Start again',
-      run: () => {
+  private tell(error: unknown): void {
+    this.messages.show(
+      messageOf(error, () => {
         this.stage.workshop.restart();
         void this.begin();
-      },
-    };
-  }
-
-  private tell(error: unknown): void {
-    const text = error instanceof Error ? error.message : String(error);
-    const lost = error instanceof LoadError || error instanceof CrashError;
-    this.messages.show({ kind: 'error', text, ...(lost ? { action: this.restartAction() } : {}) });
+      }),
+    );
   }
 }

@@ -5,7 +5,7 @@ export function acceptDrops(take: (file: File) => void): void {
   const veil = h(
     'div',
     { class: 'veil', hidden: true },
-    h('p', {}, 'Drop a quad or hex mesh: .mesh, .msh, .vtk, .vtu'),
+    h('p', {}, 'Drop a mesh (.mesh, .msh, .vtk, .vtu), a picture, or a metric (.sol)'),
   );
   document.body.append(veil);
   let depth = 0;

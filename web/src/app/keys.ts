@@ -1,5 +1,5 @@
 // What each key of the page does; panels/help.ts tells it.
-import type { LookInside } from '../panels/look_inside.ts';
+import type { LookInside } from '../panels/look_inside_later.ts';
 import type { Player } from '../replay/player.ts';
 import type { Picture } from '../stage/picture.ts';
 import type { RunControl } from '../stage/run_control.ts';

@@ -3,4 +3,5 @@ import { definePillowMesh } from './pillow_mesh.ts';
 
 definePillowMesh();
 
-export { PillowMeshElement, definePillowMesh, type PillowMeshEventMap } from './pillow_mesh.ts';
+export type { PillowMeshEventMap } from './event_map.ts';
+export { PillowMeshElement, definePillowMesh } from './pillow_mesh.ts';

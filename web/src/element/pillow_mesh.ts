@@ -1,6 +1,5 @@
 // <pillow-mesh>: a mesh that adapts, anywhere in a page. Describes itself by attributes (attributes.ts), computes in the
 // workers that all elements of the page share, loads when it comes near the window.
-import type { MeshEvent } from '../../../wasm/events.ts';
 import type { RunResult } from '../../../wasm/protocol.ts';
 import type { MeshArrays } from '../../../wasm/session.ts';
 import controlsSheet from '../../style/controls.css?inline';
@@ -18,20 +17,7 @@ import { h } from '../ui/dom.ts';
 import { icon } from '../ui/icons.ts';
 import { behaviourAttributes, controlsOf, fileNameOf, settingsOf, stateAttributes } from './attributes.ts';
 import elementSheet from './element.css?inline';
-
-/** Events of the element; none bubbles. */
-export interface PillowMeshEventMap {
-  /** The initial mesh is there. */
-  load: CustomEvent<{ cells: number; dim: number }>;
-  /** Another mesh is shown: that after `position` of `length` operations. */
-  step: CustomEvent<{ position: number; length: number; kind: MeshEvent['kind'] | null; caption: string }>;
-  play: CustomEvent<null>;
-  pause: CustomEvent<null>;
-  /** A run has come to its end. `report` is that of docs/report.md. */
-  done: CustomEvent<{ report: unknown; seconds: number; status: string; message: string }>;
-  /** Something was refused or failed; the element says so too. */
-  error: CustomEvent<{ message: string; error: unknown }>;
-}
+import type { PillowMeshEventMap } from './event_map.ts';
 
 let sheets: CSSStyleSheet[] | null = null;
 

@@ -14,7 +14,6 @@ import {
   type QualityMeasure,
 } from '../inside/look_inside.ts';
 import { h } from '../ui/dom.ts';
-import { icon } from '../ui/icons.ts';
 
 export interface LookInsideActions {
   change(inside: Inside): void;
@@ -22,14 +21,18 @@ export interface LookInsideActions {
   viewDirection(): number[] | null;
 }
 
-export interface LookInside {
-  /** Shows and hides the panel. */
-  toggle: HTMLButtonElement;
+/** What there is to see, see viewport/hex_body.ts. */
+export interface InsideReport {
+  kept: number;
+  total: number;
+  deepest: number;
+  irregular: readonly number[] | null;
+}
+
+export interface InsidePanel {
   element: HTMLElement;
-  update(inside: Inside, dim: number): void;
-  setReport(report: { kept: number; total: number; deepest: number; irregular: readonly number[] | null }): void;
-  setOpen(open: boolean): void;
-  isOpen(): boolean;
+  update(inside: Inside): void;
+  setReport(report: InsideReport): void;
   /** Cuts across an axis; once more: from the other side. */
   cutAcross(axis: 0 | 1 | 2): void;
 }
@@ -82,9 +85,8 @@ function choice<W extends string>(
   return { element, set: (word) => (inputs.get(word)!.checked = true) };
 }
 
-export function makeLookInside(actions: LookInsideActions): LookInside {
+export function makeInsidePanel(actions: LookInsideActions): InsidePanel {
   let inside = defaultInside();
-  let open = false;
   let deepest = 1;
   const change = (patch: Partial<Inside>): void => actions.change({ ...inside, ...patch });
   const changeCut = (patch: Partial<Cut>): void => change({ cut: { ...inside.cut, ...patch } });
@@ -181,39 +183,11 @@ export function makeLookInside(actions: LookInsideActions): LookInside {
     h('div', { class: 'part' }, heading('Cells', body.element)),
     h('div', { class: 'part' }, h('label', { class: 'check' }, irregular, 'Irregular edges'), legend, note),
   );
-  const toggle = h(
-    'button',
-    {
-      type: 'button',
-      class: 'chip inside-toggle',
-      title: 'Cut, peel and filter the cells (I)',
-      'aria-expanded': 'false',
-      'aria-controls': 'inside',
-      hidden: true,
-      onclick: () => setOpen(!open),
-    },
-    icon('inside'),
-    'Look inside',
-  );
-  let dimension = 2;
-  const setOpen = (next: boolean): void => {
-    open = next;
-    toggle.setAttribute('aria-expanded', String(open));
-    element.hidden = !open || dimension === 2;
-  };
-
   return {
-    toggle,
     element,
     cutAcross,
-    setOpen,
-    isOpen: () => open,
-    update(next, dim) {
+    update(next) {
       inside = next;
-      dimension = dim;
-      toggle.hidden = dim === 2;
-      element.hidden = !open || dim === 2;
-      toggle.classList.toggle('active', looksInside(next));
       reset.disabled = !looksInside(next);
       const { cut, quality } = next;
       showPeel();

@@ -15,6 +15,7 @@ export interface SetupActions {
   changeFormula(text: string): void;
   changeOption(name: OptionName, value: string): void;
   compareWith(rival: string): void;
+  sketch(): void;
   run(): void;
   stop(): void;
 }
@@ -22,6 +23,8 @@ export interface SetupActions {
 export interface Setup {
   element: HTMLElement;
   formula: FormulaField;
+  /** Where the panel for sketching goes. */
+  sketchPlace: HTMLElement;
   setCases(cases: readonly Case[]): void;
   update(state: { mesh: MeshChoice; options: Options; compare: string; running: boolean; summary: string }): void;
   /** What the run is doing, or how it ended. */
@@ -134,7 +137,7 @@ export function makeSetup(actions: SetupActions): Setup {
   });
   const fileInput = h('input', {
     type: 'file',
-    accept: meshEndings.join(','),
+    accept: [...meshEndings, '.sol', 'image/*'].join(','),
     class: 'unseen',
     tabindex: -1,
     'aria-label': 'Mesh file',
@@ -148,7 +151,7 @@ export function makeSetup(actions: SetupActions): Setup {
     'button',
     { type: 'button', class: 'plain wide', onclick: () => fileInput.click() },
     icon('open'),
-    'Open a mesh file',
+    'Open a mesh, a picture, a metric',
   );
   const paper = h(
     'div',
@@ -165,6 +168,16 @@ export function makeSetup(actions: SetupActions): Setup {
         },
         `Fig. ${figure.number}`,
       ),
+    ),
+  );
+  const sketchPlace = h(
+    'div',
+    { class: 'sketch-place' },
+    h(
+      'button',
+      { type: 'button', class: 'plain wide', onclick: () => actions.sketch() },
+      icon('brush'),
+      'Sketch it instead',
     ),
   );
   const rival = h(
@@ -189,6 +202,7 @@ export function makeSetup(actions: SetupActions): Setup {
     summary,
     paper,
     formula.element,
+    sketchPlace,
     h(
       'details',
       { class: 'group' },
@@ -215,6 +229,7 @@ export function makeSetup(actions: SetupActions): Setup {
   return {
     element,
     formula,
+    sketchPlace,
     setCases(cases) {
       const group = (dim: number): HTMLElement =>
         h(

@@ -5,6 +5,7 @@ import { Pool } from '../../../wasm/pool.ts';
 import full from '../../../build/wasm/pillowmesh_full.wasm?packed';
 import solid from '../../../build/wasm/pillowmesh3d.wasm?packed';
 import files from '../../../build/wasm/pillowmesh_files.wasm?packed';
+import metrics from '../../../build/wasm/pillowmesh_metrics.wasm?packed';
 import InlineWorker from '../../../wasm/worker.ts?worker&inline';
 
 let pool: Pool | null = null;
@@ -17,8 +18,8 @@ async function unpack(packed: string): Promise<ArrayBuffer> {
 }
 
 async function unpackAll(): Promise<ModuleSources<ArrayBuffer>> {
-  const [two, three, formats] = await Promise.all([full, solid, files].map(unpack));
-  return { 2: two, full: two, 3: three, files: formats };
+  const [two, three, formats, makers] = await Promise.all([full, solid, files, metrics].map(unpack));
+  return { 2: two, full: two, 3: three, files: formats, metrics: makers };
 }
 
 export function corePool(): Pool {

@@ -222,6 +222,15 @@ export class Picture {
     return this.viewport.capture(2);
   }
 
+  /** See Viewport. */
+  placeAt(clientX: number, clientY: number): [number, number] {
+    return this.viewport?.placeAt(clientX, clientY) ?? [0, 0];
+  }
+
+  screenOf(x: number, y: number): [number, number] {
+    return this.viewport?.screenOf(x, y) ?? [0, 0];
+  }
+
   /** What is drawn of a mesh of quadrilaterals, for export/svg.ts. */
   drawing(): Drawing {
     const { mesh, events, index } = this.player;

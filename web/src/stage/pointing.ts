@@ -2,12 +2,20 @@
 // irregular vertices. Loaded with the drawing code.
 import { chordThrough, irregularVertices, neighboursOf, type Chord } from '../inside/chords.ts';
 import { cellWord } from '../replay/caption.ts';
+import type { QualityMeasure } from '../inside/look_inside.ts';
 import type { Player } from '../replay/player.ts';
 import type { ReplayMesh } from '../replay/replay_mesh.ts';
 import type { CameraPose } from '../state/settings.ts';
 import { cellEdges, segmentsOf } from '../viewport/segments.ts';
 import type { Viewport } from '../viewport/viewport.ts';
-import type { Picture } from './picture.ts';
+
+/** The picture that this belongs to. */
+export interface PictureBeside {
+  measure(name: QualityMeasure): Float64Array;
+  paint(): void;
+  onPoint(sentence: string | null): void;
+  onPose(): void;
+}
 
 export class Pointing {
   private pointed = -1;
@@ -16,7 +24,7 @@ export class Pointing {
   private drawn = false;
 
   constructor(
-    private readonly picture: Picture,
+    private readonly picture: PictureBeside,
     private readonly viewport: Viewport,
     private readonly player: Player,
   ) {

@@ -1,5 +1,6 @@
 // A picture that computes: mesh, metric, run, playback and drawing together, without any panel around it. The page and
 // the element <pillow-mesh> are both made of it.
+import type { MetricRequest } from '../../../wasm/metrics.ts';
 import type { Measures, RunResult } from '../../../wasm/protocol.ts';
 import { captionOf } from '../replay/caption.ts';
 import { Player, type Shown } from '../replay/player.ts';
@@ -93,10 +94,11 @@ export class Stage {
 
   /** Shows what the settings say. False when the mesh or the metric was refused; the reason was told. */
   async apply(): Promise<boolean> {
-    const { mesh, formula, event, pace, camera } = this.settings();
+    const { mesh, formula, sketch, event, pace, camera } = this.settings();
     this.player.pace = pace;
     this.picture.setLook(this.settings());
     if (!(await this.open(mesh, formula))) return false;
+    if (sketch && this.player.mesh.dim === 2) await this.drawSketch(sketch);
     if (camera) void this.pictureLoaded.then(() => (this.picture.pose = camera));
     if (event !== null && event > 0) await this.run.start({ show: event });
     return true;
@@ -113,14 +115,44 @@ export class Stage {
       return false;
     }
     this.settings().mesh = choice;
+    this.settings().sketch = '';
     this.takeFormula(text, true);
     return true;
   }
 
   /** Another metric on the same mesh, shown if it is still wanted then. Rejects when it is refused. */
   async setFormula(text: string, wanted: () => boolean = () => true): Promise<void> {
-    await this.workshop.setMetric(text);
-    if (wanted()) this.takeFormula(text, false);
+    await this.workshop.setMetric({ formula: text });
+    if (!wanted()) return;
+    this.settings().sketch = '';
+    this.takeFormula(text, false);
+  }
+
+  /** The metric by strokes; without any, the mesh's own comes back. */
+  async drawSketch(sketch: string): Promise<void> {
+    const { decodeSketch, formulaOfSketch } = await import('../sketch/sketch.ts');
+    const strokes = decodeSketch(sketch);
+    const settings = this.settings();
+    settings.sketch = strokes.length > 0 ? sketch : '';
+    settings.formula = '';
+    if (strokes.length === 0) return void (await this.open(settings.mesh, ''));
+    const formula = formulaOfSketch(strokes, this.extent / 6);
+    await this.workshop.setMetric({ formula });
+    this.takeFormula(formula, false);
+  }
+
+  /** A metric made from a picture, a solution, ...: it belongs to the session and to no link. */
+  async setMadeMetric(request: MetricRequest): Promise<void> {
+    const nodal = await this.workshop.call('makeMetric', request);
+    await this.workshop.setMetric({ nodal });
+    this.settings().sketch = '';
+    this.takeFormula('', false);
+  }
+
+  /** The mesh's larger side. */
+  get extent(): number {
+    const { low, high } = this.player.mesh.bounds();
+    return Math.max(...low.map((x, d) => high[d] - x));
   }
 
   /** Shows the mesh after so many events; starts a run when there is none. */
@@ -158,7 +190,8 @@ export class Stage {
 
   private takeFormula(text: string, fit: boolean): void {
     const settings = this.settings();
-    settings.formula = text === this.subject.ownFormula(settings.mesh) ? '' : text;
+    const drawn = settings.sketch !== '';
+    settings.formula = drawn || text === this.subject.ownFormula(settings.mesh) ? '' : text;
     this.host.opened(text);
     this.showInitial(fit);
   }

@@ -47,7 +47,7 @@ export class Subject {
     const mesh = await this.workshop.open(source, text ? { formula: text } : undefined);
     if (!text) {
       text = formulaFor(mesh);
-      await this.workshop.setMetric(text);
+      await this.workshop.setMetric({ formula: text });
     }
     this.initial = mesh;
     return text;

@@ -38,8 +38,8 @@ export class Workshop {
     return mesh;
   }
 
-  async setMetric(formula: string): Promise<void> {
-    await this.call('metric', { formula });
+  async setMetric(metric: MetricSpec): Promise<void> {
+    await this.call('metric', metric);
     this.run = null;
   }
 

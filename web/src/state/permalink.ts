@@ -18,6 +18,7 @@ export const stateNames = [
   'mesh',
   'file',
   'metric',
+  'sketch',
   ...(Object.keys(optionDefaults) as OptionName[]),
   'colour',
   'hide',
@@ -54,6 +55,7 @@ export function encodeSettings(settings: Settings): string {
   if (mesh.kind === 'grid') query.set('mesh', mesh.spec);
   if (mesh.kind === 'file') query.set('file', mesh.name);
   if (settings.formula) query.set('metric', settings.formula);
+  if (settings.sketch) query.set('sketch', settings.sketch);
   for (const [name, value] of Object.entries(settings.options))
     if (value !== optionDefaults[name as OptionName]) query.set(name, value);
   if (settings.colouring !== standard.colouring) query.set('colour', settings.colouring);
@@ -78,6 +80,7 @@ export function decodeSettings(fragment: string): Settings {
   else if (file) settings.mesh = { kind: 'file', name: file };
   else if (name) settings.mesh = { kind: 'case', name };
   settings.formula = get('metric') ?? '';
+  settings.sketch = get('sketch') ?? '';
   for (const option of Object.keys(optionDefaults) as OptionName[])
     settings.options[option] = get(option) ?? optionDefaults[option];
   settings.colouring = colourings.find((c) => c === get('colour')) ?? settings.colouring;
@@ -96,6 +99,7 @@ export function decodeSettings(fragment: string): Settings {
 
 /** Whether two states show the same run, if perhaps not the same moment of it. */
 export function sameComputation(a: Settings, b: Settings): boolean {
-  const question = ({ mesh, formula, options }: Settings): string => JSON.stringify([mesh, formula, options]);
+  const question = ({ mesh, formula, sketch, options }: Settings): string =>
+    JSON.stringify([mesh, formula, sketch, options]);
   return question(a) === question(b);
 }

@@ -54,6 +54,8 @@ export interface Settings {
   mesh: MeshChoice;
   /** Empty: the case's own. */
   formula: string;
+  /** Strokes that the metric is drawn with, as sketch/sketch.ts writes them; empty: it is a formula's. */
+  sketch: string;
   options: Options;
   colouring: Colouring;
   marks: Record<Mark, boolean>;
@@ -72,6 +74,7 @@ export function defaultSettings(): Settings {
   return {
     mesh: { kind: 'case', name: 'iso2d' },
     formula: '',
+    sketch: '',
     options: { ...optionDefaults },
     colouring: 'plain',
     marks: { ...defaultMarks },

@@ -17,6 +17,7 @@ const paths = {
   help: 'M7.3 7.5a2.7 2.7 0 1 1 4 2.3c-.9.5-1.3 1-1.3 2M10 14.8v.2',
   inside: 'M3 6.5l7-3.5 7 3.5v7L10 17l-7-3.5zM3 6.5l7 3.5M10 10v7',
   book: 'M10 5c-1.8-1.3-4-1.7-7-1.5v11.5c3-.2 5.2.2 7 1.5 1.8-1.3 4-1.7 7-1.5V3.5c-3-.2-5.2.2-7 1.5zM10 5v11.5',
+  brush: 'M16.5 3.5c-4 1.5-7.5 5-8.8 7.7l2.1 2.1c2.7-1.3 5.2-4.8 6.7-9.8zM7 12c-2 .2-2.6 1.6-2.8 3.6-.1.8-.6 1.2-1.2 1.4 2.6.6 6 .1 6.2-2.8',
   undo: 'M7.5 4L4 7.5 7.5 11M4 7.5h7.5a4.5 4.5 0 0 1 0 9H8',
   redo: 'M12.5 4L16 7.5 12.5 11M16 7.5H8.5a4.5 4.5 0 0 0 0 9H12',
   embed: 'M7 5.5L2.5 10 7 14.5M13 5.5l4.5 4.5-4.5 4.5',
@@ -24,7 +25,7 @@ const paths = {
 } as const;
 
 export type IconName = keyof typeof paths;
-const outlined = new Set<IconName>(['link', 'save', 'open', 'help', 'inside', 'book', 'undo', 'redo', 'embed', 'close']);
+const outlined = new Set<IconName>(['link', 'save', 'open', 'help', 'inside', 'book', 'brush', 'undo', 'redo', 'embed', 'close']);
 
 export function icon(name: IconName): SVGSVGElement {
   const stroke = outlined.has(name);

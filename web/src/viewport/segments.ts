@@ -29,6 +29,11 @@ export function facetEdges(dim: number, facets: Int32Array): Int32Array {
   return Int32Array.from([...edges.values()].flat());
 }
 
+/** Segments of no length at points of three coordinates each: drawn with round ends they are dots. */
+export function dotsAt(points: Float32Array): Float32Array {
+  return Float32Array.from({ length: 2 * points.length }, (_, i) => points[3 * Math.floor(i / 6) + (i % 3)]);
+}
+
 /** The edges of one cell. */
 export function cellEdges({ cells, cornerCount, dim }: ReplayMesh, cell: number): Int32Array {
   const edges: number[] = [];

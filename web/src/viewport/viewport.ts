@@ -9,7 +9,7 @@ import { Ellipses } from './ellipses.ts';
 import { FaceLayer, faceMarks, type Origins } from './face_layer.ts';
 import { HexBody, type InsideReport } from './hex_body.ts';
 import type { Palette } from './palette.ts';
-import { boundaryEdges, facetEdges, segmentsOf } from './segments.ts';
+import { boundaryEdges, dotsAt, facetEdges, segmentsOf } from './segments.ts';
 import { Strokes } from './strokes.ts';
 import { Triad } from './triad.ts';
 
@@ -225,10 +225,8 @@ export class Viewport {
 
   /** Points of irregular vertices, three coordinates each. */
   setIrregular(fewer: Float32Array, more: Float32Array): void {
-    const dots = (points: Float32Array): Float32Array =>
-      Float32Array.from({ length: 2 * points.length }, (_, i) => points[3 * Math.floor(i / 6) + (i % 3)]);
-    this.fewer.setSegments(dots(fewer));
-    for (const strokes of this.more) strokes.setSegments(dots(more));
+    this.fewer.setSegments(dotsAt(fewer));
+    for (const strokes of this.more) strokes.setSegments(dotsAt(more));
     this.requestRender();
   }
 
@@ -236,6 +234,20 @@ export class Viewport {
   setPin(segments: Float32Array): void {
     this.pin.setSegments(segments);
     this.requestRender();
+  }
+
+  /** In 2D: the place in the mesh's coordinates at a point of the window, and back. */
+  placeAt(clientX: number, clientY: number): [number, number] {
+    const box = this.canvas.getBoundingClientRect();
+    const at = new Vector3((2 * (clientX - box.left)) / box.width - 1, 1 - (2 * (clientY - box.top)) / box.height, 0);
+    const { x, y } = at.unproject(this.camera);
+    return [x, y];
+  }
+
+  screenOf(x: number, y: number): [number, number] {
+    const box = this.canvas.getBoundingClientRect();
+    const at = new Vector3(x, y, 0).project(this.camera);
+    return [box.left + ((at.x + 1) / 2) * box.width, box.top + ((1 - at.y) / 2) * box.height];
   }
 
   /** The cell that is drawn at a point of the window; -1 for none. */
