@@ -3,8 +3,10 @@
 
 #include "pillowmesh/mesh/primitives.h"
 #include "pillowmesh/mesh/topology.h"
+#include "pillowmesh/metric/background.h"
 #include "pillowmesh/metric/gallery.h"
 #include "pillowmesh/metric/length.h"
+#include "pillowmesh/metric/nodal.h"
 
 namespace {
 
@@ -38,6 +40,38 @@ void evaluate_metric(benchmark::State& state, const char* name) {
 BENCHMARK_CAPTURE(evaluate_metric, iso2d, "iso2d");
 BENCHMARK_CAPTURE(evaluate_metric, aniso2d, "aniso2d");
 BENCHMARK_CAPTURE(evaluate_metric, circle2d, "circle2d");
+
+/// The same metric from the vertices of a background of 317 x 317 vertices.
+MetricField<2> sampled(const char* name) {
+  return *look_up(sample_at_vertices(field_of(name), fine_mesh_of(name, 316)));
+}
+
+void evaluate_sampled(benchmark::State& state, const char* name) {
+  const auto field = sampled(name);
+  const auto mesh = fine_mesh_of(name, 100);
+  std::vector<SymTensor<2>> tensors(mesh.points.size());
+  for (auto _ : state) {
+    field.evaluate(mesh.points, tensors);
+    benchmark::DoNotOptimize(tensors.data());
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(tensors.size()));
+}
+BENCHMARK_CAPTURE(evaluate_sampled, iso2d, "iso2d");
+BENCHMARK_CAPTURE(evaluate_sampled, circle2d, "circle2d");
+
+/// What the adaptation loop asks, most often near the place before: look-ups in the quadtree over the metric.
+void look_up_in_loop(benchmark::State& state, const char* name, bool from_background) {
+  const auto mesh = fine_mesh_of(name, 100);
+  Background background(from_background ? sampled(name) : field_of(name), mesh.points.front(), mesh.points.back());
+  for (const auto& p : mesh.points) background.at(p);
+  for (auto _ : state)
+    for (const auto& p : mesh.points) benchmark::DoNotOptimize(background.at(p));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(mesh.points.size()));
+}
+BENCHMARK_CAPTURE(look_up_in_loop, iso2d_formula, "iso2d", false);
+BENCHMARK_CAPTURE(look_up_in_loop, iso2d_background, "iso2d", true);
+BENCHMARK_CAPTURE(look_up_in_loop, circle2d_formula, "circle2d", false);
+BENCHMARK_CAPTURE(look_up_in_loop, circle2d_background, "circle2d", true);
 
 void measure_edges(benchmark::State& state, const char* name) {
   const auto field = field_of(name);

@@ -165,7 +165,8 @@ Expected<NodalMetric<Dim>> layers_metric(const ProblemFlags& flags, const Mesh<D
   return wall_metric(mesh, layers);
 }
 
-/// All that the flags name, each as it is.
+/// All that the flags name, each as it is; in the order of makeMetric (wasm/metrics.ts), for intersections depend on
+/// it.
 template <int Dim>
 Expected<std::vector<MetricSource<Dim>>> metric_sources(const ProblemFlags& flags, const Mesh<Dim>& mesh) {
   std::vector<MetricSource<Dim>> sources;
@@ -200,12 +201,13 @@ Expected<std::vector<MetricSource<Dim>>> metric_sources(const ProblemFlags& flag
     return hessian_metric(*hessian, box.low, box.high, hessian_options(flags));
   });
   add(!flags.hessian_file.empty(), [&] { return hessian_from_file(flags, mesh); });
-  add(!flags.metric_of.empty(), [&] { return metric_of_mesh<Dim>(flags); });
-  add(!flags.layers.empty(), [&] { return layers_metric(flags, mesh); });
   if (!failed.ok()) return failed;
   auto flat = flat_sources(flags, mesh);
   if (!flat) return flat.status();
   for (auto& source : *flat) sources.push_back(std::move(source));
+  add(!flags.metric_of.empty(), [&] { return metric_of_mesh<Dim>(flags); });
+  add(!flags.layers.empty(), [&] { return layers_metric(flags, mesh); });
+  if (!failed.ok()) return failed;
   return sources;
 }
 

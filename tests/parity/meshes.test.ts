@@ -1,13 +1,14 @@
 // The command and the WebAssembly module are two builds of one core, by two compilers: they must give the same bits.
 import { spawnSync } from 'node:child_process';
-import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
-import type { Core } from '../../wasm/loader.ts';
+import { loadMetrics, type Core } from '../../wasm/loader.ts';
+import { makeMetric } from '../../wasm/metrics.ts';
 import { cases, type Options } from '../../wasm/session.ts';
-import { load, modulePaths, open, reportOf, runToEnd, write, type Report } from '../wasm/core.ts';
+import { load, moduleBytes, modulePaths, open, reportOf, runToEnd, write, type Report } from '../wasm/core.ts';
 
 const command = fileURLToPath(new URL('../../build/release/bin/pillowmesh', import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), 'pillowmesh-parity-'));
@@ -114,5 +115,27 @@ describe('native and WebAssembly give the same mesh and the same numbers', () =>
     const wasm = adaptInWasm({ kind: 'file', name: 'start.msh', bytes }, formula, {}, 'mesh.msh');
     expect(text(wasm.file) === text(native.file)).toBe(true);
     expect(numbers(wasm.report)).toEqual(numbers(native.report));
+  });
+
+  test('a metric made of dabs, a function and a wall, graded, to a number of cells', async () => {
+    const mesh = open(await load(2), { kind: 'grid', spec: 'grid:6,5:0,1,0,1' });
+    const nodal = makeMetric(await loadMetrics(moduleBytes('metrics')), mesh.input(), {
+      hessianOf: 'tanh(5*(x + sin(2*y) - 1))',
+      dabs: [{ x: 0.3, y: 0.4, radius: 0.1, size: 0.05 }],
+      layers: ['ymin:0.01:1.3'],
+      operations: { 'target-cells': '400', gradation: '1.4', hmin: '0.004' },
+    });
+    mesh.setMetric({ nodal });
+    const found = reportOf(mesh);
+    mesh.destroy();
+    writeFileSync(join(folder, 'dabs.txt'), '0.3 0.4 0.1 0.05\n');
+    const sources = ['--hessian-of', 'tanh(5*(x + sin(2*y) - 1))', '--sketch', join(folder, 'dabs.txt')];
+    const operations = ['--boundary-layer', 'ymin:0.01:1.3', '--gradation', '1.4', '--hmin', '0.004'];
+    // Measured, not adapted: to a number of cells the command adapts more than once.
+    const run = ['measure', 'grid:6,5:0,1,0,1', ...sources, ...operations, '--target-cells', '400', '--report', '-'];
+    const native = spawnSync(command, run, { encoding: 'utf8' });
+    expect(native.stderr).toBe('');
+    expect(numbers(found)).toEqual(numbers(JSON.parse(native.stdout) as Report));
+    expect(found.complexity).toBeCloseTo(400, -1);
   });
 });

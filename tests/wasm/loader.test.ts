@@ -67,6 +67,7 @@ describe('the module', () => {
     ['full', 200_000],
     [3, 200_000],
     ['files', 60_000],
+    ['metrics', 180_000],
   ] as const;
   for (const [which, limit] of limits)
     test(`${which} is at most ${limit} bytes when compressed`, () => {

@@ -12,7 +12,7 @@ namespace {
 /// Weights nearer to zero than this may belong to the neighbour as well: rounding must not decide between the two.
 constexpr double kDoubtful = 1e-10;
 /// A walk longer than this costs more than a search from the root.
-constexpr int kSteps = 12;
+constexpr int kSteps = 20;
 
 /// cosh(r) and sinh(r) / r with r^2 = square.
 struct Hyperbolic {
@@ -41,7 +41,8 @@ void exp_lanes<2>(int count, TensorLanes<2>& out) {
 
 template <>
 void exp_lanes<3>(int count, TensorLanes<3>& out) {
-  // Scaling and squaring: exp(m I + D) = e^m (exp(2^-k D))^(2^k), with Taylor's polynomial of degree 9 by Horner's rule.
+  // Scaling and squaring: exp(m I + D) = e^m (exp(2^-k D))^(2^k), with Taylor's polynomial of degree 9 by Horner's
+  // rule.
   for (int i = 0; i < count; ++i) {
     const double m = (out[0][i] + out[2][i] + out[5][i]) / 3.0;
     double D[6] = {out[0][i] - m, out[1][i], out[2][i] - m, out[3][i], out[4][i], out[5][i] - m};

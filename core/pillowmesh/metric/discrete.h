@@ -20,7 +20,7 @@ template <int Dim>
 class DiscreteMetric {
  public:
   /// \param logs log M of each point. Simplices without volume are left out; any orientation will do.
-  /// \return bad_input when none is left, or one names a point that is not there. Cost: n log n.
+  /// \return bad_input when none is left, or one names a point that is not there. Cost: n log^2 n.
   static Expected<std::shared_ptr<const DiscreteMetric>> make(std::vector<Point<Dim>> points,
                                                               std::vector<Simplex<Dim>> simplices,
                                                               std::vector<SymTensor<Dim>> logs);

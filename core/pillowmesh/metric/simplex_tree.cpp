@@ -148,24 +148,19 @@ Index SimplexTree<Dim>::build(std::span<const Point<Dim>> points, std::span<cons
   for (int d = 1; d < Dim; ++d)
     if (high_centre[d] - low_centre[d] > high_centre[axis] - low_centre[axis]) axis = d;
   const std::size_t middle = order.size() / 2;
-  // The id breaks ties, so that the tree does not depend on the library's nth_element.
-  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(middle), order.end(),
-                   [&](Index a, Index b) {
-                     return centres[a][axis] != centres[b][axis] ? centres[a][axis] < centres[b][axis] : a < b;
-                   });
-  // Halves in the order of ids: which simplex of two that share a place is found must not depend on the library either.
-  std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(middle));
-  std::sort(order.begin() + static_cast<std::ptrdiff_t>(middle), order.end());
+  // The id breaks ties: which of two simplices that share a place is found must not depend on the library's sort.
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+    return centres[a][axis] != centres[b][axis] ? centres[a][axis] < centres[b][axis] : a < b;
+  });
   build(points, simplices, centres, order.first(middle), first);  // becomes node id + 1
-  const Index right =
-      build(points, simplices, centres, order.subspan(middle), first + static_cast<Index>(middle));
+  const Index right = build(points, simplices, centres, order.subspan(middle), first + static_cast<Index>(middle));
   nodes_[id].left = right;
   return id;
 }
 
 template <int Dim>
-SimplexPlace<Dim> SimplexTree<Dim>::nearest(std::span<const Point<Dim>> points,
-                                            std::span<const Simplex<Dim>> simplices, const Point<Dim>& p) const {
+SimplexPlace<Dim> SimplexTree<Dim>::nearest(std::span<const Point<Dim>> points, std::span<const Simplex<Dim>> simplices,
+                                            const Point<Dim>& p) const {
   const auto box_distance = [&](Index n) {
     double sum = 0.0;
     for (int d = 0; d < Dim; ++d) {
@@ -181,8 +176,24 @@ SimplexPlace<Dim> SimplexTree<Dim>::nearest(std::span<const Point<Dim>> points,
   std::array<Waiting, 64> stack;  // deeper than log2 of any number of simplices
   int depth = 0;
   stack[depth++] = {0, box_distance(0)};
+  // Most points lie inside: first only look for the simplex that holds p.
+  while (depth > 0) {
+    const Waiting at = stack[--depth];
+    if (at.distance > 0.0) continue;
+    const Node& node = nodes_[at.node];
+    if (node.left >= 0) {
+      stack[depth++] = {node.left, box_distance(node.left)};
+      stack[depth++] = {at.node + 1, box_distance(at.node + 1)};
+      continue;
+    }
+    for (Index i = ~node.left; i < ~node.left + node.count; ++i) {
+      const Weights<Dim> w = barycentric<Dim>(points, simplices[i], p);
+      if (*std::min_element(w.begin(), w.end()) >= 0.0) return {i, w};
+    }
+  }
   SimplexPlace<Dim> best;
   double best_square = 1e300;
+  stack[depth++] = {0, box_distance(0)};
   while (depth > 0) {
     const Waiting at = stack[--depth];
     if (at.distance >= best_square && best.simplex != kNone) continue;
@@ -196,7 +207,6 @@ SimplexPlace<Dim> SimplexTree<Dim>::nearest(std::span<const Point<Dim>> points,
     }
     for (Index i = ~node.left; i < ~node.left + node.count; ++i) {
       const Weights<Dim> w = barycentric<Dim>(points, simplices[i], p);
-      if (*std::min_element(w.begin(), w.end()) >= 0.0) return {i, w};
       for (int f = 0; f <= Dim; ++f) {  // the nearest point lies on a facet that p is beyond
         if (w[f] >= 0.0) continue;
         Weights<Dim> on_facet;
@@ -211,9 +221,9 @@ SimplexPlace<Dim> SimplexTree<Dim>::nearest(std::span<const Point<Dim>> points,
   return best;
 }
 
-#define PILLOWMESH_INSTANTIATE(D)                                                                               \
-  template class SimplexTree<D>;                                                                                \
-  template Weights<D> barycentric<D>(std::span<const Point<D>>, const Simplex<D>&, const Point<D>&);            \
+#define PILLOWMESH_INSTANTIATE(D)                                                                    \
+  template class SimplexTree<D>;                                                                     \
+  template Weights<D> barycentric<D>(std::span<const Point<D>>, const Simplex<D>&, const Point<D>&); \
   template double simplex_determinant<D>(std::span<const Point<D>>, const Simplex<D>&);
 PILLOWMESH_INSTANTIATE(2)
 PILLOWMESH_INSTANTIATE(3)

@@ -29,7 +29,7 @@ struct SimplexPlace {
 template <int Dim>
 class SimplexTree {
  public:
-  /// Puts `simplices` in the order of the tree's leaves, so that neighbours in space are near in memory. Cost: n log n.
+  /// Puts `simplices` in the order of the tree's leaves, so that neighbours in space are near in memory. Cost: n log^2 n.
   /// \pre all have a volume
   SimplexTree(std::span<const Point<Dim>> points, std::vector<Simplex<Dim>>& simplices);
 
