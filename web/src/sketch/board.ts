@@ -34,13 +34,11 @@ export function makeBoard(host: BoardHost): Board {
     return { row: h('label', { class: 'slider' }, h('span', {}, label), input, output), value: () => Number(input.value) };
   };
   const size = slider('Size', { min: 0.003, max: 0.1, step: 0.001, value: 0.012 }, (v) => `${(100 * v).toFixed(1)} %`);
-  const stretch = slider('Stretch', { min: 1, max: 10, step: 0.5, value: 1 }, (v) => `${v}×`);
   const panel = h(
     'section',
     { class: 'sketch-panel', 'aria-label': 'Sketch' },
-    h('p', { class: 'hint' }, 'Draw on the picture: cells become fine along the stroke, and stretched if you like.'),
+    h('p', { class: 'hint' }, 'Draw on the picture: cells become fine along the stroke.'),
     size.row,
-    stretch.row,
     h(
       'div',
       { class: 'minis' },
@@ -68,7 +66,7 @@ export function makeBoard(host: BoardHost): Board {
     const extent = host.extent();
     const points = simplified(drawing, 0.006 * extent);
     drawing = null;
-    host.change([...host.strokes(), { size: size.value() * extent, stretch: stretch.value(), points }]);
+    host.change([...host.strokes(), { size: size.value() * extent, stretch: 1, points }]);
   };
   surface.addEventListener('pointerup', end);
   surface.addEventListener('pointercancel', () => {

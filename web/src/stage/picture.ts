@@ -249,17 +249,26 @@ export class Picture {
     this.paint();
   }
 
-  /** Colours and marks anew. */
-  paint(): void {
+  /** Colours and marks of what is drawn anew; what is drawn stays. */
+  repaint(): void {
+    this.pointing?.draw(this.look.marks.irregular && this.player.mesh.dim === 2);
+    this.viewport?.repaint(...this.scene());
+  }
+
+  /** Everything anew but the mesh's shape. */
+  private paint(): void {
+    this.viewport?.setEllipseStrength(this.player.index > 0 ? 0.42 : 1);
+    this.pointing?.draw(this.look.marks.irregular && this.player.mesh.dim === 2);
+    this.onInside(this.viewport?.setScene(...this.scene()) ?? null);
+  }
+
+  private scene(): Parameters<Viewport['setScene']> {
     const { mesh, events, index } = this.player;
-    this.viewport?.setEllipseStrength(index > 0 ? 0.42 : 1);
     const { quality } = this.look.inside;
     const values = isFiltered(quality) ? this.measure(quality.measure) : null;
     const faded = (cell: number): boolean => values !== null && !passes(quality, values[cell]);
-    this.pointing?.draw(this.look.marks.irregular && mesh.dim === 2);
     const chords = this.pointing?.chords().map(({ cells }) => cells) ?? [];
-    const report = this.viewport?.setScene(mesh, sceneAfter(events, index), this.valueOf(mesh), faded, chords);
-    this.onInside(report ?? null);
+    return [mesh, sceneAfter(events, index), this.valueOf(mesh), faded, chords];
   }
 
   /** The cell with the least measure, and that; null before anything was measured. */

@@ -12,7 +12,7 @@ import type { Viewport } from '../viewport/viewport.ts';
 /** The picture that this belongs to. */
 export interface PictureBeside {
   measure(name: QualityMeasure): Float64Array;
-  paint(): void;
+  repaint(): void;
   onPoint(sentence: string | null): void;
   onPose(): void;
 }
@@ -38,7 +38,12 @@ export class Pointing {
       });
     };
     canvas.addEventListener('pointermove', (event) => event.pointerType === 'mouse' && point(event));
-    canvas.addEventListener('click', (event) => point(event as PointerEvent));
+    let pressed = { x: 0, y: 0 };
+    canvas.addEventListener('pointerdown', ({ clientX: x, clientY: y }) => (pressed = { x, y }));
+    canvas.addEventListener('click', (event) => {
+      const { clientX, clientY } = event;
+      if (Math.hypot(clientX - pressed.x, clientY - pressed.y) < 5) point(event as PointerEvent); // else: a drag
+    });
     canvas.addEventListener('pointerleave', (event) => {
       cancelAnimationFrame(frame);
       if (event.pointerType === 'mouse') this.pointAt(-1);
@@ -95,7 +100,7 @@ export class Pointing {
   private pointAt(cell: number): void {
     if (cell === this.pointed) return;
     this.pointed = cell;
-    this.picture.paint();
+    this.picture.repaint();
     this.picture.onPoint(cell < 0 ? null : this.describe(cell));
   }
 

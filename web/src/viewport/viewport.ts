@@ -164,15 +164,7 @@ export class Viewport {
     const { inside, shown, origins } = this;
     const report =
       mesh.dim === 3 ? this.hexes.rebuild(this.faces, mesh, scene, { inside, shown, faded, origins }) : null;
-    const mark = new Uint8Array(mesh.cellCount);
-    if (this.shown.layer) for (const c of scene.layer) mark[c] = faceMarks.layer;
-    if (this.shown.buffer) for (const c of scene.buffer) mark[c] = faceMarks.buffer;
-    chords.forEach((cells, i) => {
-      for (const c of cells) mark[c] = i === 0 ? faceMarks.chord : faceMarks.otherChord;
-    });
-    if (mesh.dim === 2) for (let c = 0; c < mesh.cellCount; ++c) if (faded(c)) mark[c] = faceMarks.faded;
-    this.faces.paintCells(value, mark);
-    if (report) this.hexes.paintCells(value, mark);
+    this.repaint(mesh, scene, value, faded, chords);
     const none = new Int32Array(0);
     // Through glass all tags are seen at once: they stand back when there is a layer to look at.
     const crowded = mesh.dim === 3 && scene.layer.length > 0;
@@ -182,6 +174,26 @@ export class Viewport {
     this.hull.setSegments(segmentsOf(mesh, this.shown.hull ? facetEdges(mesh.dim, scene.hull) : none));
     this.requestRender();
     return report;
+  }
+
+  /** Colours and marks of the faces there are. */
+  repaint(
+    mesh: ReplayMesh,
+    scene: Scene,
+    value: (cell: number) => number,
+    faded: (cell: number) => boolean,
+    chords: readonly Int32Array[],
+  ): void {
+    const mark = new Uint8Array(mesh.cellCount);
+    if (this.shown.layer) for (const c of scene.layer) mark[c] = faceMarks.layer;
+    if (this.shown.buffer) for (const c of scene.buffer) mark[c] = faceMarks.buffer;
+    chords.forEach((cells, i) => {
+      for (const c of cells) mark[c] = i === 0 ? faceMarks.chord : faceMarks.otherChord;
+    });
+    if (mesh.dim === 2) for (let c = 0; c < mesh.cellCount; ++c) if (faded(c)) mark[c] = faceMarks.faded;
+    this.faces.paintCells(value, mark);
+    if (mesh.dim === 3) this.hexes.paintCells(value, mark);
+    this.requestRender();
   }
 
   /** Takes effect with the next scene. */
