@@ -188,6 +188,7 @@ export class App {
       return;
     }
     await this.applySettings();
+    this.writeLink(); // undo leads back to here, however soon something is changed
     if (plain && firstVisit() && !this.stage.player.still) this.stage.run.togglePlay();
   }
 
