@@ -2,7 +2,7 @@ import { defineConfig } from 'vitest/config';
 
 // One project per suite of scripts/test.mjs. The suites that build, start programs or drive a browser run one file at
 // a time: the machine may have two cores.
-const project = (name: string, timeout: number, serial = true) => ({
+const project = (name: string, timeout: number, serial = true, globalSetup: string[] = []) => ({
   test: {
     name,
     include: [`tests/${name}/**/*.test.ts`],
@@ -10,6 +10,7 @@ const project = (name: string, timeout: number, serial = true) => ({
     testTimeout: timeout,
     hookTimeout: timeout,
     fileParallelism: !serial,
+    globalSetup,
   },
 });
 
@@ -21,7 +22,7 @@ export default defineConfig({
       project('package', 600_000),
       project('wasm', 60_000, false),
       project('parity', 120_000),
-      project('web', 120_000),
+      project('web', 120_000, true, ['tests/web/build_site.ts']),
     ],
   },
 });

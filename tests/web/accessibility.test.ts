@@ -1,21 +1,9 @@
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, expect, test } from 'vitest';
-import { buildSite, openBrowser, serveSite, type Serving } from './site.ts';
+import { expect, test } from 'vitest';
+import { eventually, visit } from './browsing.ts';
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-let browser: Browser;
-let site: Serving;
-
-beforeAll(async () => {
-  await buildSite();
-  [browser, site] = await Promise.all([openBrowser(), serveSite()]);
-});
-afterAll(async () => {
-  await browser?.close();
-  await site?.close();
-});
 
 const states = {
   quads: 'case=iso2d&event=3&colour=shape',
@@ -25,15 +13,8 @@ const states = {
 for (const colorScheme of ['light', 'dark'] as const)
   for (const [width, cells] of [[1280, 'quads'], [360, 'quads'], [1280, 'hexes'], [360, 'hexes']] as const)
     test(`axe finds nothing to complain of: ${cells}, ${colorScheme}, ${width} pixels wide`, async () => {
-      const context = await browser.newContext({
-        colorScheme,
-        viewport: { width, height: 800 },
-        reducedMotion: 'reduce',
-        bypassCSP: true,
-      });
-      const page = await context.newPage();
-      await page.goto(`${site.address}#${states[cells]}`);
-      await expect.poll(() => page.locator('.counter').innerText(), { timeout: 30_000 }).toMatch(/^3 \/ \d+$/);
+      const page = await visit(`#${states[cells]}`, { colorScheme, viewport: { width, height: 800 }, bypassCSP: true });
+      await expect.poll(() => page.locator('.counter').innerText(), eventually).toMatch(/^3 \/ \d+$/);
       await page.evaluate(axe);
       const violations = await page.evaluate(async () => {
         const { axe } = window as unknown as {
@@ -42,5 +23,4 @@ for (const colorScheme of ['light', 'dark'] as const)
         return (await axe.run()).violations.map(({ id, nodes }) => `${id}: ${nodes.map((n) => n.html).join(' ')}`);
       });
       expect(violations).toEqual([]);
-      await context.close();
     });

@@ -1,40 +1,24 @@
 // <pillow-mesh> on pages of other people: strict policies, sandboxes, folders without a server, other hosts.
 import { copyFileSync, mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
+import type { BrowserContextOptions } from 'playwright-core';
+import { afterEach, describe, expect, test } from 'vitest';
 import type { PillowMeshElement } from '../../web/src/element/pillow_mesh.ts';
-import { buildSite, openBrowser, root, screenshots, serveSite, site, type ServeOptions, type Serving } from './site.ts';
+import { complaints, eventually, newPage, page } from './browsing.ts';
+import { root, screenshots, serveSite, site, type ServeOptions, type Serving } from './site.ts';
 
-let browser: Browser;
+/** The host of the page under test. */
 let serving: Serving | null = null;
-let page: Page;
-let complaints: string[] = [];
-const eventually = { timeout: 40_000 };
-
-beforeAll(async () => {
-  mkdirSync(screenshots, { recursive: true });
-  await buildSite();
-  browser = await openBrowser();
-});
 afterEach(async () => {
-  await page?.context().close();
   await serving?.close();
   serving = null;
 });
-afterAll(() => browser?.close());
 
 const document_ = (body: string, head = `<script type="module" src="../pillow-mesh.js"></script>`): string =>
   `<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Course</title><link rel="icon" href="../icon.svg">${head}</head><body>${body}</body></html>`;
 
 async function open(address: string, options: BrowserContextOptions = {}): Promise<void> {
-  const context = await browser.newContext({ viewport: { width: 900, height: 700 }, reducedMotion: 'reduce', ...options });
-  page = await context.newPage();
-  complaints = [];
-  page.on('pageerror', (error) => complaints.push(error.message));
-  page.on('console', (message) => {
-    if (message.type() === 'error') complaints.push(message.text());
-  });
+  await newPage({ viewport: { width: 900, height: 700 }, ...options });
   await page.goto(address);
 }
 
@@ -143,8 +127,7 @@ describe('several on one page', () => {
   test('share few workers and one download, and give back what is out of sight', async () => {
     let modules = 0;
     serving = await serveSite({ pages: { 'course/page.html': document_(many.join('')) } });
-    const context = await browser.newContext({ viewport: { width: 700, height: 600 }, reducedMotion: 'reduce' });
-    page = await context.newPage();
+    await newPage({ viewport: { width: 700, height: 600 } });
     page.on('request', (request) => (modules += /pillowmesh-[^/]*\.wasm$/.test(request.url()) ? 1 : 0));
     await page.goto(`${serving.address}course/page.html`);
     await expect.poll(() => position('f1'), eventually).toBe(1);

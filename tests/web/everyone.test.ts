@@ -1,40 +1,10 @@
 // For everyone: keys, touch, zoomed text, print, lost graphics, missing WebAssembly.
-import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
-import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, expect, test } from 'vitest';
-import { buildSite, openBrowser, screenshots, serveSite, type Serving } from './site.ts';
+import { expect, test } from 'vitest';
+import { eventually, newPage, page, part, pictureNow, visit } from './browsing.ts';
+import { screenshots, serveSite } from './site.ts';
 
-let browser: Browser;
-let serving: Serving;
-let page: Page;
-const eventually = { timeout: 40_000 };
-
-beforeAll(async () => {
-  mkdirSync(screenshots, { recursive: true });
-  await buildSite();
-  [browser, serving] = await Promise.all([openBrowser(), serveSite()]);
-});
-afterEach(() => page?.context().close());
-afterAll(async () => {
-  await browser?.close();
-  await serving?.close();
-});
-
-async function visit(hash: string, options: BrowserContextOptions = {}): Promise<void> {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: 'reduce', ...options });
-  page = await context.newPage();
-  await page.goto(serving.address + hash);
-  await page.locator('.picture canvas').waitFor();
-  await expect.poll(() => page.locator('.facts dd').first().innerText(), eventually).toMatch(/\d/);
-}
-const part = (name: string): string | null => new URLSearchParams(new URL(page.url()).hash.slice(1)).get(name);
 const zoom = (): number => Number(part('view')?.split(';')[1] ?? 1);
-const pictureNow = async (): Promise<Buffer> => {
-  await page.waitForTimeout(250);
-  return page.locator('.picture canvas').screenshot();
-};
-
 test('the camera moves, turns and zooms by keys', async () => {
   await visit('#case=iso2d');
   await page.keyboard.press('Control+ArrowRight');
@@ -147,8 +117,7 @@ test('a page that forbids WebAssembly says so, and the element shows its own con
         '<!doctype html><title>Course</title><script type="module" src="pillow-mesh.js"></script><pillow-mesh>A mesh of squares</pillow-mesh>',
     },
   });
-  const context = await browser.newContext();
-  page = await context.newPage();
+  await newPage();
   await page.goto(`${strict.address}course.html`);
   await expect.poll(() => page.locator('.problem').innerText(), eventually).toMatch(/WebAssembly|core/);
   await strict.close();

@@ -1,49 +1,15 @@
 // Exploring a mesh: pointing, picking, flying, undoing, saving drawings and films, embedding.
-import { mkdirSync, readFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 import { snippetOf } from '../../web/src/panels/embed_dialog.ts';
 import { decodeSketch, encodeSketch, formulaOfSketch, simplified } from '../../web/src/sketch/sketch.ts';
-import { buildSite, openBrowser, screenshots, serveSite, type Serving } from './site.ts';
+import { complaints, eventually, page, part, pictureNow, serving, visit } from './browsing.ts';
+import { screenshots, serveSite } from './site.ts';
 
-let browser: Browser;
-let serving: Serving;
-let page: Page;
-let complaints: string[] = [];
-const eventually = { timeout: 40_000 };
-
-beforeAll(async () => {
-  mkdirSync(screenshots, { recursive: true });
-  await buildSite();
-  [browser, serving] = await Promise.all([openBrowser(), serveSite()]);
-});
-afterEach(() => page?.context().close());
-afterAll(async () => {
-  await browser?.close();
-  await serving?.close();
-});
-
-async function visit(hash: string, options: BrowserContextOptions = {}): Promise<void> {
-  const context = await browser.newContext({ viewport: { width: 1366, height: 768 }, reducedMotion: 'reduce', ...options });
-  page = await context.newPage();
-  complaints = [];
-  page.on('pageerror', (error) => complaints.push(error.message));
-  page.on('console', (message) => {
-    if (message.type() === 'error') complaints.push(message.text());
-  });
-  await page.goto(serving.address + hash);
-  await page.locator('.picture canvas').waitFor();
-  await expect.poll(() => page.locator('.facts dd').first().innerText(), eventually).toMatch(/\d/);
-}
 const counter = (): Promise<string> => page.locator('.counter').innerText();
 const caption = (): Promise<string> => page.locator('#caption .text').innerText();
-const part = (name: string): string | null => new URLSearchParams(new URL(page.url()).hash.slice(1)).get(name);
 const ran = () => expect.poll(() => page.locator('.status').innerText(), eventually).toMatch(/ in [\d.]+ s/);
-const pictureNow = async (): Promise<Buffer> => {
-  await page.waitForTimeout(250);
-  return page.locator('.picture canvas').screenshot();
-};
 async function middle(selector: string): Promise<{ x: number; y: number; width: number; height: number }> {
   const box = (await page.locator(selector).boundingBox())!;
   return { x: box.x + box.width / 2, y: box.y + box.height / 2, width: box.width, height: box.height };

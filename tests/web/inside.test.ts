@@ -1,55 +1,12 @@
 // Looking into hexahedral meshes in a real browser, control by control; and the paper's figures.
-import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
-import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
-import { buildSite, openBrowser, screenshots, serveSite, type Serving } from './site.ts';
-
-let browser: Browser;
-let site: Serving;
-let page: Page;
-let complaints: string[] = [];
-
-beforeAll(async () => {
-  mkdirSync(screenshots, { recursive: true });
-  await buildSite();
-  [browser, site] = await Promise.all([openBrowser(), serveSite()]);
-});
-afterAll(async () => {
-  await browser?.close();
-  await site?.close();
-});
-afterEach(async () => {
-  await page?.context().close();
-});
-
-const eventually = { timeout: 60_000 };
-
-async function visit(hash: string, options: BrowserContextOptions = {}): Promise<void> {
-  const context = await browser.newContext({
-    viewport: { width: 1280, height: 800 },
-    reducedMotion: 'reduce',
-    ...options,
-  });
-  page = await context.newPage();
-  complaints = [];
-  page.on('pageerror', (error) => complaints.push(error.message));
-  page.on('console', (message) => {
-    if (message.type() === 'error' || message.type() === 'warning') complaints.push(message.text());
-  });
-  await page.goto(site.address + hash);
-  await page.locator('canvas').first().waitFor();
-  await expect.poll(() => page.locator('.facts dd').first().innerText(), eventually).toMatch(/\d/);
-}
+import { describe, expect, test } from 'vitest';
+import { complaints, eventually, page, part, pictureNow, visit } from './browsing.ts';
+import { screenshots } from './site.ts';
 
 const drawn = async (): Promise<string> => (await page.locator('.drawn').textContent()) ?? '';
 const kept = async (): Promise<number> => Number((await drawn()).replace(/,/g, '').split(' ')[0]);
 const slider = (name: string) => page.locator('.inside').getByRole('slider', { name, exact: true });
-const pictureNow = async (): Promise<Buffer> => {
-  await page.waitForTimeout(250);
-  return page.locator('.picture canvas').screenshot();
-};
-const part = (name: string): string | null => new URLSearchParams(new URL(page.url()).hash.slice(1)).get(name);
 const open = () => page.getByRole('button', { name: 'Look inside' }).click();
 
 describe('looking inside', () => {

@@ -1,40 +1,17 @@
 // The lessons, read and done as a student would.
-import { mkdirSync, readFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 import { formulaOf } from '../../web/src/lesson/tag_editor.ts';
 import type { PillowMeshElement } from '../../web/src/element/pillow_mesh.ts';
-import { buildSite, openBrowser, root, screenshots, serveSite, site, type Serving } from './site.ts';
+import { complaints, eventually, newPage, page, serving } from './browsing.ts';
+import { root, screenshots, site } from './site.ts';
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const lessons = JSON.parse(readFileSync(join(root, 'web/lessons/lessons.json'), 'utf8')) as { file: string; title: string }[];
-let browser: Browser;
-let serving: Serving;
-let page: Page;
-let complaints: string[] = [];
-const eventually = { timeout: 40_000 };
-
-beforeAll(async () => {
-  mkdirSync(screenshots, { recursive: true });
-  await buildSite();
-  [browser, serving] = await Promise.all([openBrowser(), serveSite()]);
-});
-afterEach(() => page?.context().close());
-afterAll(async () => {
-  await browser?.close();
-  await serving?.close();
-});
-
 async function visit(address: string, width = 1000, height = 800): Promise<void> {
-  const context = await browser.newContext({ viewport: { width, height }, reducedMotion: 'reduce', bypassCSP: true });
-  page = await context.newPage();
-  complaints = [];
-  page.on('pageerror', (error) => complaints.push(error.message));
-  page.on('console', (message) => {
-    if (message.type() === 'error') complaints.push(message.text());
-  });
+  await newPage({ viewport: { width, height }, bypassCSP: true });
   await page.goto(address);
 }
 const lesson = (file: string, width?: number): Promise<void> => visit(`${serving.address}lessons/${file}`, width);

@@ -1,66 +1,26 @@
 // The built page in a real browser, driven as a visitor would.
-import { mkdirSync, readFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
-import { buildSite, openBrowser, screenshots, serveSite, type Serving } from './site.ts';
+import { describe, expect, test } from 'vitest';
+import { complaints, eventually, newPage, page, serving, visit } from './browsing.ts';
+import { screenshots, serveSite } from './site.ts';
 
-let browser: Browser;
-let site: Serving;
-let page: Page | null = null;
-let complaints: string[] = [];
-
-beforeAll(async () => {
-  mkdirSync(screenshots, { recursive: true });
-  await buildSite();
-  [browser, site] = await Promise.all([openBrowser(), serveSite()]);
-});
-afterAll(async () => {
-  await browser?.close();
-  await site?.close();
-});
-afterEach(async () => {
-  await page?.context().close();
-  page = null;
-});
-
-/** A new visitor at the page; what the browser complains of is kept. */
-async function visit(hash = '', options: BrowserContextOptions = {}): Promise<Page> {
-  await page?.context().close();
-  const context = await browser.newContext({
-    viewport: { width: 1280, height: 800 },
-    reducedMotion: 'reduce',
-    ...options,
-  });
-  page = await context.newPage();
-  complaints = [];
-  page.on('pageerror', (error) => complaints.push(error.message));
-  page.on('console', (message) => {
-    if (message.type() === 'error' || message.type() === 'warning') complaints.push(message.text());
-  });
-  await page.goto(site.address + hash);
-  await page.locator('canvas').first().waitFor();
-  await fact('Cells').then((cell) => expect.poll(() => cell.innerText(), { timeout: 20_000 }).toMatch(/\d/));
-  return page;
-}
-
-const fact = async (name: string) => page!.locator('.facts > div', { hasText: name }).locator('dd');
-const caption = (): Promise<string> => page!.locator('#caption .text').innerText();
-const counter = (): Promise<string> => page!.locator('.counter').innerText();
-const status = () => page!.locator('.status');
-const ours = (table: number) => page!.locator('table.indicators').nth(table).locator('.ours td').allInnerTexts();
-const eventually = { timeout: 30_000 };
+const fact = async (name: string) => page.locator('.facts > div', { hasText: name }).locator('dd');
+const caption = (): Promise<string> => page.locator('#caption .text').innerText();
+const counter = (): Promise<string> => page.locator('.counter').innerText();
+const status = () => page.locator('.status');
+const ours = (table: number) => page.locator('table.indicators').nth(table).locator('.ours td').allInnerTexts();
 
 /** Computes the whole run without playing it, and leaves the page at its end. */
 async function runToEnd(): Promise<void> {
-  await page!.getByRole('button', { name: 'Run', exact: true }).click();
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
   await expect.poll(() => status().innerText(), eventually).toMatch(/ in [\d.]+ s/);
-  await page!.keyboard.press('End');
+  await page.keyboard.press('End');
 }
 
 /** Hands a file to the page as a drop. */
 async function drop(name: string, content: string): Promise<void> {
-  await page!.evaluate(
+  await page.evaluate(
     ([name, content]) => {
       const data = new DataTransfer();
       data.items.add(new File([content], name));
@@ -75,20 +35,20 @@ describe('the first frame', () => {
     await visit();
     expect(await caption()).toContain('63 quads');
     expect(await caption()).toContain('ellipse');
-    expect(await page!.locator('.start').isVisible()).toBe(true);
+    expect(await page.locator('.start').isVisible()).toBe(true);
     expect(await ours(0)).toEqual(['142', '1.000', '4.205', '20.00', '1.042']);
-    expect(await page!.locator('table.indicators .paper').count()).toBe(6);
+    expect(await page.locator('table.indicators .paper').count()).toBe(6);
     expect(complaints).toEqual([]);
   });
 
   test('draws the mesh, and draws it differently when asked to', async () => {
     await visit();
-    await page!.waitForTimeout(500);
-    const picture = page!.locator('.picture');
+    await page.waitForTimeout(500);
+    const picture = page.locator('.picture');
     const plain = await picture.screenshot();
     expect(plain.length).toBeGreaterThan(20_000); // a plain background compresses to a tenth of that
-    await page!.keyboard.press('c');
-    await page!.waitForTimeout(300);
+    await page.keyboard.press('c');
+    await page.waitForTimeout(300);
     expect((await picture.screenshot()).equals(plain)).toBe(false);
   });
 });
@@ -96,26 +56,26 @@ describe('the first frame', () => {
 describe('playing', () => {
   test('play computes the run and shows its events; space pauses', async () => {
     await visit('#pace=4');
-    await page!.locator('.start').click();
+    await page.locator('.start').click();
     await expect.poll(counter, eventually).toMatch(/^[4-9]\d* \/|^\d\d+ \//);
-    await page!.locator('body').press('Space');
+    await page.locator('body').press('Space');
     const held = await counter();
-    await page!.waitForTimeout(700);
+    await page.waitForTimeout(700);
     expect((await counter()).split(' ')[0]).toBe(held.split(' ')[0]);
-    expect(await page!.getByRole('button', { name: 'Play', exact: true }).isVisible()).toBe(true);
+    expect(await page.getByRole('button', { name: 'Play', exact: true }).isVisible()).toBe(true);
   });
 
   test('a step forward and a step back lead through tags, layer, shrink and connect', async () => {
     await visit();
     const kinds: string[] = [];
     for (let i = 0; i < 4; ++i) {
-      await page!.keyboard.press('ArrowRight');
+      await page.keyboard.press('ArrowRight');
       await expect.poll(counter, eventually).toMatch(new RegExp(`^${i + 1} /`));
-      kinds.push(await page!.locator('.badge').innerText());
+      kinds.push(await page.locator('.badge').innerText());
     }
     expect(kinds).toEqual(['Tags', 'Layer', 'Shrink', 'Connect']);
     await expect.poll(async () => (await fact('Cells')).innerText(), eventually).not.toBe('63');
-    for (let i = 0; i < 4; ++i) await page!.getByRole('button', { name: 'Step back' }).click();
+    for (let i = 0; i < 4; ++i) await page.getByRole('button', { name: 'Step back' }).click();
     expect(await caption()).toContain('63 quads');
     await expect.poll(async () => (await fact('Cells')).innerText(), eventually).toBe('63');
     await expect.poll(() => ours(0), eventually).toEqual(['142', '1.000', '4.205', '20.00', '1.042']);
@@ -130,52 +90,52 @@ describe('playing', () => {
     await expect.poll(async () => (await fact('Cells')).innerText(), eventually).toBe(cells.toLocaleString('en'));
     await expect.poll(async () => Number((await ours(0))[4]), eventually).toBeLessThan(0.35);
     expect(await (await fact('Irregular')).innerText()).toMatch(/\d/);
-    await page!.getByLabel('Event shown').fill('0');
+    await page.getByLabel('Event shown').fill('0');
     await expect.poll(() => ours(0), eventually).toEqual(['142', '1.000', '4.205', '20.00', '1.042']);
     expect(complaints).toEqual([]);
   });
 
   test('a run can be stopped, and what it has done can be played', async () => {
     await visit('#case=circle-1');
-    await page!.getByRole('button', { name: 'Run', exact: true }).click();
-    await page!.getByRole('button', { name: 'Stop' }).click();
+    await page.getByRole('button', { name: 'Run', exact: true }).click();
+    await page.getByRole('button', { name: 'Stop' }).click();
     await expect.poll(() => status().innerText(), eventually).toContain('stopped');
-    await page!.keyboard.press('End');
+    await page.keyboard.press('End');
     expect(await counter()).toMatch(/\d+ \/ \d+$/);
   });
 
   test('a changed option starts afresh', async () => {
     await visit('#case=aniso2d');
     await runToEnd();
-    await page!.getByLabel('Smooth').selectOption('none');
+    await page.getByLabel('Smooth').selectOption('none');
     expect(await caption()).toContain('63 quads');
     expect(await counter()).toBe('');
-    expect(page!.url()).not.toContain('event');
+    expect(page.url()).not.toContain('event');
   });
 });
 
 describe('looking', () => {
   test('cells are coloured by shape and age, each with a legend', async () => {
     await visit();
-    expect(await page!.locator('.legend').isVisible()).toBe(false);
-    await page!.getByLabel('Colour of cells').selectOption('shape');
-    expect(await page!.locator('.legend').innerText()).toMatch(/flat[\s\S]*unit/);
-    await page!.locator('h1').click();
+    expect(await page.locator('.legend').isVisible()).toBe(false);
+    await page.getByLabel('Colour of cells').selectOption('shape');
+    expect(await page.locator('.legend').innerText()).toMatch(/flat[\s\S]*unit/);
+    await page.locator('h1').click();
     for (const words of [/too short[\s\S]*too long/, /right angles/]) {
-      await page!.keyboard.press('c');
-      expect(await page!.locator('.legend').innerText()).toMatch(words);
+      await page.keyboard.press('c');
+      expect(await page.locator('.legend').innerText()).toMatch(words);
     }
-    await page!.keyboard.press('c');
-    expect(await page!.locator('.legend').innerText()).toContain('iteration');
+    await page.keyboard.press('c');
+    expect(await page.locator('.legend').innerText()).toContain('iteration');
   });
 
   test('marks can be switched by button and by key', async () => {
     await visit();
-    const ellipses = page!.getByRole('button', { name: 'Metric' });
+    const ellipses = page.getByRole('button', { name: 'Metric' });
     await ellipses.click();
     expect(await ellipses.getAttribute('aria-pressed')).toBe('false');
-    await page!.locator('h1').click();
-    await page!.keyboard.press('m');
+    await page.locator('h1').click();
+    await page.keyboard.press('m');
     expect(await ellipses.getAttribute('aria-pressed')).toBe('true');
   });
 
@@ -183,13 +143,13 @@ describe('looking', () => {
     await visit('#case=linear3d');
     expect(await caption()).toContain('64 hexes');
     expect(await ours(0)).toEqual(['300', '1.250', '2.456', '5.00', '0.497']);
-    expect(await page!.getByRole('button', { name: 'Metric' }).isVisible()).toBe(false);
+    expect(await page.getByRole('button', { name: 'Metric' }).isVisible()).toBe(false);
   });
 
   test('nothing is drawn while nothing changes', async () => {
     await visit();
-    await page!.waitForTimeout(800);
-    const frames = await page!.evaluate(async () => {
+    await page.waitForTimeout(800);
+    const frames = await page.evaluate(async () => {
       let count = 0;
       const real = window.requestAnimationFrame;
       window.requestAnimationFrame = (callback) => (++count, real.call(window, callback));
@@ -203,34 +163,34 @@ describe('looking', () => {
 describe('a link', () => {
   test('restores case, options, event, colours and camera in a new page', async () => {
     await visit('#case=circle2d&threshold=2.5&smooth=none&colour=age&hide=hull');
-    await page!.keyboard.press('ArrowRight');
+    await page.keyboard.press('ArrowRight');
     await expect.poll(counter, eventually).toMatch(/^1 \/ \d+$/);
-    for (let i = 0; i < 6; ++i) await page!.keyboard.press('ArrowRight');
-    const canvas = page!.locator('.picture canvas');
+    for (let i = 0; i < 6; ++i) await page.keyboard.press('ArrowRight');
+    const canvas = page.locator('.picture canvas');
     await canvas.hover();
-    await page!.mouse.wheel(0, -400);
-    await expect.poll(() => page!.url(), eventually).toMatch(/event=7.*view=/);
-    const url = page!.url();
+    await page.mouse.wheel(0, -400);
+    await expect.poll(() => page.url(), eventually).toMatch(/event=7.*view=/);
+    const url = page.url();
     const [words, numbers] = [await caption(), await ours(0)];
     await visit(new URL(url).hash);
     await expect.poll(counter, eventually).toMatch(/^7 \//);
     expect(await caption()).toBe(words);
     await expect.poll(() => ours(0), eventually).toEqual(numbers);
-    expect(await page!.getByLabel('Threshold').inputValue()).toBe('2.5');
-    expect(await page!.getByRole('button', { name: 'Hull' }).getAttribute('aria-pressed')).toBe('false');
-    await expect.poll(() => page!.url(), eventually).toBe(url);
+    expect(await page.getByLabel('Threshold').inputValue()).toBe('2.5');
+    expect(await page.getByRole('button', { name: 'Hull' }).getAttribute('aria-pressed')).toBe('false');
+    await expect.poll(() => page.url(), eventually).toBe(url);
   });
 
   test('to an unknown case says so and shows the first one', async () => {
     await visit('#case=atlantis');
     expect(await caption()).toContain('63 quads');
-    await expect.poll(() => page!.url(), eventually).toContain('case=iso2d');
-    expect(await page!.getByRole('alert').filter({ hasText: 'atlantis' }).isVisible()).toBe(true);
+    await expect.poll(() => page.url(), eventually).toContain('case=iso2d');
+    expect(await page.getByRole('alert').filter({ hasText: 'atlantis' }).isVisible()).toBe(true);
   });
 
   test('of a dropped file asks for the file', async () => {
     await visit('#file=plate.msh');
-    expect(await page!.getByRole('alert').filter({ hasText: 'plate.msh' }).innerText()).toContain('Drop that file');
+    expect(await page.getByRole('alert').filter({ hasText: 'plate.msh' }).innerText()).toContain('Drop that file');
   });
 });
 
@@ -240,17 +200,17 @@ const square = (quads: string): string =>
 describe('own input', () => {
   test('a formula is applied while it is typed, and its mistakes are shown where they are', async () => {
     await visit();
-    await page!.getByLabel('Metric: the size').fill('h = 0.3 + 0.1*foo');
-    const mistake = page!.locator('.mistake');
+    await page.getByLabel('Metric: the size').fill('h = 0.3 + 0.1*foo');
+    const mistake = page.locator('.mistake');
     await expect.poll(() => mistake.innerText(), eventually).toContain('column 15');
     expect(await mistake.locator('mark').innerText()).toBe('f');
     expect(await ours(0)).toEqual(['142', '1.000', '4.205', '20.00', '1.042']); // the old metric still holds
-    await page!.getByLabel('Metric: the size').fill('h = 0.5');
+    await page.getByLabel('Metric: the size').fill('h = 0.5');
     await expect.poll(() => ours(0), eventually).toEqual(['142', '2.000', '2.000', '2.00', '0.000']);
     expect(await mistake.innerText()).toBe('');
-    expect(await page!.locator('table.indicators .paper').count()).toBe(0); // the paper's rows are for its own metric
+    expect(await page.locator('table.indicators .paper').count()).toBe(0); // the paper's rows are for its own metric
     await expect
-      .poll(() => new URLSearchParams(new URL(page!.url()).hash.slice(1)).get('metric'), eventually)
+      .poll(() => new URLSearchParams(new URL(page.url()).hash.slice(1)).get('metric'), eventually)
       .toBe('h = 0.5');
   });
 
@@ -258,7 +218,7 @@ describe('own input', () => {
     await visit();
     await drop('two.mesh', square('Quadrilaterals\n2\n1 2 5 4 1\n2 3 6 5 1'));
     await expect.poll(caption, eventually).toContain('2 quads');
-    expect(await page!.locator('#formula').inputValue()).toMatch(/^h = .*abs\(x/);
+    expect(await page.locator('#formula').inputValue()).toMatch(/^h = .*abs\(x/);
     await runToEnd();
     expect(Number((await status().innerText()).match(/^[\d,]+/)![0].replace(',', ''))).toBeGreaterThan(20);
   });
@@ -266,7 +226,7 @@ describe('own input', () => {
   test('a bad file is refused in a sentence and leaves the page as it was', async () => {
     await visit();
     await drop('bad.mesh', square('Quadrilaterals\n1\n1 2 5 99 1'));
-    const alert = page!.getByRole('alert').filter({ hasText: 'bad.mesh' });
+    const alert = page.getByRole('alert').filter({ hasText: 'bad.mesh' });
     await alert.waitFor();
     expect(await alert.innerText()).toMatch(/99|4/);
     expect(await caption()).toContain('63 quads');
@@ -276,20 +236,20 @@ describe('own input', () => {
 
   test('a grid can be typed', async () => {
     await visit();
-    await page!.getByText('Another initial mesh').click();
-    await page!.getByLabel('Grid').fill('grid:5,4:0,7,0,9');
-    await page!.getByLabel('Grid').press('Enter');
+    await page.getByText('Another initial mesh').click();
+    await page.getByLabel('Grid').fill('grid:5,4:0,7,0,9');
+    await page.getByLabel('Grid').press('Enter');
     await expect.poll(caption, eventually).toContain('20 quads');
-    await expect.poll(() => page!.url(), eventually).toContain('mesh=grid');
+    await expect.poll(() => page.url(), eventually).toContain('mesh=grid');
   });
 });
 
 describe('saving', () => {
   async function save(format: string): Promise<{ name: string; bytes: Buffer }> {
-    await page!.getByTitle('Save').click();
+    await page.getByTitle('Save').click();
     const [download] = await Promise.all([
-      page!.waitForEvent('download'),
-      page!.locator(`[data-format=${format}]`).click(),
+      page.waitForEvent('download'),
+      page.locator(`[data-format=${format}]`).click(),
     ]);
     return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
   }
@@ -322,14 +282,13 @@ describe('saving', () => {
 
 describe('what a visitor downloads', () => {
   const modules = async (hash: string): Promise<string[]> => {
-    const context = await browser.newContext();
-    page = await context.newPage();
+    await newPage();
     const asked: string[] = [];
-    context.on('request', (request) => {
+    page.on('request', (request) => {
       const module = /(pillowmesh\w*)-[^/]*\.wasm$/.exec(request.url())?.[1];
       if (module) asked.push(module);
     });
-    await page.goto(site.address + hash);
+    await page.goto(serving.address + hash);
     const cells = await fact('Cells');
     await expect.poll(() => cells.innerText(), { timeout: 20_000 }).toMatch(/\d/);
     return asked;
@@ -347,24 +306,21 @@ describe('what a visitor downloads', () => {
 describe('mishaps', () => {
   test('a missing core is told, with a way to try again', async () => {
     const without = await serveSite({ hide: (path) => path.endsWith('.wasm') });
-    const context = await browser.newContext();
-    const lost = await context.newPage();
+    const lost = await newPage();
     await lost.goto(without.address);
     const alert = lost.getByRole('alert').filter({ hasText: 'core' });
     await alert.waitFor();
     expect(await alert.innerText()).toContain('404');
     expect(await alert.getByRole('button', { name: 'Start again' }).isVisible()).toBe(true);
-    await context.close();
     await without.close();
   });
 
   test('without WebGL the numbers and the run still work', async () => {
-    const context = await browser.newContext();
-    page = await context.newPage();
+    await newPage();
     await page.addInitScript(() => {
       HTMLCanvasElement.prototype.getContext = () => null;
     });
-    await page.goto(site.address);
+    await page.goto(serving.address);
     await page.getByRole('alert').filter({ hasText: 'WebGL' }).waitFor();
     await expect.poll(() => ours(0), eventually).toEqual(['142', '1.000', '4.205', '20.00', '1.042']);
     await runToEnd();
@@ -373,8 +329,7 @@ describe('mishaps', () => {
   test('a worker that cannot work is told and can be replaced', async () => {
     let broken = true;
     const flaky = await serveSite({ hide: (path) => broken && /worker/.test(path) });
-    const context = await browser.newContext();
-    page = await context.newPage();
+    await newPage();
     await page.goto(flaky.address);
     const alert = page.getByRole('alert').filter({ hasText: 'stopped' });
     await alert.waitFor();
@@ -404,22 +359,22 @@ describe('on every screen', () => {
     test(`${name}: nothing is wider than the window, the picture has room`, async () => {
       await visit(hash, { viewport: { width, height }, colorScheme });
       if (hash.includes('event')) await expect.poll(counter, eventually).toMatch(/^\d+ \/ \d+$/);
-      await page!.waitForTimeout(400);
-      expect(await page!.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
-      const picture = (await page!.locator('.picture').boundingBox())!;
+      await page.waitForTimeout(400);
+      expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
+      const picture = (await page.locator('.picture').boundingBox())!;
       expect(Math.min(picture.width, picture.height)).toBeGreaterThan(220);
       expect(picture.y + picture.height).toBeLessThanOrEqual(height);
-      await page!.screenshot({ path: join(screenshots, `${name}.png`) });
+      await page.screenshot({ path: join(screenshots, `${name}.png`) });
     });
 
   test('the theme follows the system until it is chosen', async () => {
     await visit('', { colorScheme: 'dark' });
     const paper = (): Promise<string> =>
-      page!.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
+      page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
     const dark = await paper();
-    await page!.getByRole('button', { name: 'Theme' }).click();
+    await page.getByRole('button', { name: 'Theme' }).click();
     expect(await paper()).not.toBe(dark);
-    await page!.reload();
+    await page.reload();
     expect(await paper()).not.toBe(dark);
   });
 });

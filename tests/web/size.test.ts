@@ -2,8 +2,8 @@
 import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
-import { beforeAll, expect, test } from 'vitest';
-import { buildSite, site } from './site.ts';
+import { expect, test } from 'vitest';
+import { site } from './site.ts';
 
 const files = (): string[] =>
   readdirSync(site, { recursive: true })
@@ -19,8 +19,6 @@ function firstPaint(page: string): string[] {
     (name) => !name.includes('fallback'),
   );
 }
-
-beforeAll(buildSite);
 
 test('what the first paint needs is at most 40 kB', () => {
   for (const page of ['index.html', 'embed.html', 'lessons/metric.html']) {

@@ -1,0 +1,4 @@
+// Before the suite: what its files look at.
+import { buildSite } from './site.ts';
+
+export default buildSite;
