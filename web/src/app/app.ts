@@ -16,6 +16,7 @@ import { debounce, h, showOnce } from '../ui/dom.ts';
 import { icon } from '../ui/icons.ts';
 import { Comparing } from './comparing.ts';
 import { acceptDrops } from './drop.ts';
+import { toggleFullScreen } from './full_screen.ts';
 import { History } from './history.ts';
 import { listenToKeys } from './keyboard.ts';
 import { keyActions } from './keys.ts';
@@ -71,7 +72,7 @@ export class App {
     toggleMark: (mark) => this.toggleMark(mark),
     setColouring: (colouring) => this.change({ colouring }),
     fit: () => this.stage.picture.fit(),
-    fullScreen: () => void this.toggleFullScreen(),
+    fullScreen: () => void toggleFullScreen(),
     lookFrom: (direction) => this.stage.picture.lookFrom(direction),
   });
   private readonly transport = makeTransport({
@@ -293,11 +294,6 @@ export class App {
       this.inside.setOpen(true);
     }
     picture.pin(worst.cell);
-  }
-
-  private async toggleFullScreen(): Promise<void> {
-    if (document.fullscreenElement) return document.exitFullscreen();
-    await document.querySelector('.view')?.requestFullscreen().catch(() => undefined); // a frame may forbid it
   }
 
   private toggleMark(mark: Mark): void {

@@ -74,7 +74,7 @@ export class Picture {
       return;
     }
     this.pointing = new make(this, this.viewport, this.player);
-    this.viewport.onPose = () => this.onPose();
+    this.viewport.view.onPose = () => this.onPose();
     this.viewport.onMove = () => this.onMove();
     this.viewport.onContext = (lost) =>
       this.onProblem(lost ? 'The graphics driver has dropped the picture; it comes back when it can.' : null);
@@ -191,30 +191,30 @@ export class Picture {
   }
 
   get pose(): CameraPose | null {
-    return this.viewport?.currentPose() ?? null;
+    return this.viewport?.view.pose() ?? null;
   }
 
   set pose(pose: CameraPose | null) {
-    if (pose) this.viewport?.setPose(pose);
-    else this.viewport?.fit();
+    if (pose) this.viewport?.view.setPose(pose);
+    else this.viewport?.view.fit();
   }
 
   /** From the mesh to the eye; null when nothing is drawn. */
   get direction(): number[] | null {
-    return this.viewport?.direction ?? null;
+    return this.viewport?.view.direction ?? null;
   }
 
-  /** Moves or turns, and zooms; see Viewport.nudge. */
+  /** Moves or turns, and zooms; see View.nudge. */
   nudge(right: number, up: number, zoom = 1): void {
-    this.viewport?.nudge(right, up, zoom);
+    this.viewport?.view.nudge(right, up, zoom);
   }
 
   lookFrom(direction: number[]): void {
-    this.viewport?.lookFrom(direction);
+    this.viewport?.view.lookFrom(direction);
   }
 
   fit(): void {
-    this.viewport?.fit();
+    this.viewport?.view.fit();
   }
 
   capture(): Promise<Blob> {
@@ -222,13 +222,13 @@ export class Picture {
     return this.viewport.capture(2);
   }
 
-  /** See Viewport. */
+  /** See View. */
   placeAt(clientX: number, clientY: number): [number, number] {
-    return this.viewport?.placeAt(clientX, clientY) ?? [0, 0];
+    return this.viewport?.view.placeAt(clientX, clientY) ?? [0, 0];
   }
 
   screenOf(x: number, y: number): [number, number] {
-    return this.viewport?.screenOf(x, y) ?? [0, 0];
+    return this.viewport?.view.screenOf(x, y) ?? [0, 0];
   }
 
   /** What is drawn of a mesh of quadrilaterals, for export/svg.ts. */

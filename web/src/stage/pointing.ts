@@ -69,8 +69,8 @@ export class Pointing {
     const size = Math.max(...low.map((x, d) => high[d] - x));
     this.pinned = cell;
     const pose: CameraPose = { target: middle, zoom: Math.max(1, size / (14 * reach)) };
-    if (dim === 3) pose.direction = this.viewport.direction;
-    this.viewport.setPose(pose);
+    if (dim === 3) pose.direction = this.viewport.view.direction;
+    this.viewport.view.setPose(pose);
     this.pointAt(cell);
     this.picture.onPose();
   }
