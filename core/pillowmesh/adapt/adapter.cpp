@@ -3,18 +3,17 @@
 #include "pillowmesh/adapt/adapter.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <optional>
 
 #include "pillowmesh/adapt/continuation.h"
+#include "pillowmesh/adapt/longest_edge.h"
 #include "pillowmesh/adapt/recorder.h"
 #include "pillowmesh/adapt/schedule.h"
+#include "pillowmesh/adapt/stopwatch.h"
 #include "pillowmesh/adapt/tagging.h"
 #include "pillowmesh/mesh/frozen.h"
 #include "pillowmesh/mesh/jacobian.h"
 #include "pillowmesh/mesh/smooth_geometry.h"
-#include "pillowmesh/metric/length.h"
 #include "pillowmesh/refine/balance.h"
 #include "pillowmesh/refine/dice.h"
 #include "pillowmesh/refine/layer.h"
@@ -23,19 +22,6 @@
 
 namespace pillowmesh {
 namespace {
-
-/// Adds the time from its birth to its death to a total.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& total) : total_(total), start_(std::chrono::steady_clock::now()) {}
-  ~Stopwatch() { total_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& total_;
-  std::chrono::steady_clock::time_point start_;
-};
 
 enum class Stage { tag, layers, smooth_between, dice, smooth_end, improve, done };
 
@@ -120,7 +106,7 @@ struct Adapter<Dim>::State {
       case Stage::improve: improve(); break;
       case Stage::done: break;
     }
-    if (stage == Stage::done && outcome.ok()) outcome = look_at_frozen();
+    if (stage == Stage::done && outcome.ok()) outcome = check_frozen_edges(mesh, target, options.threshold);
     return stage != Stage::done;
   }
 
@@ -173,7 +159,7 @@ struct Adapter<Dim>::State {
     balance_tags<Dim>(mesh, tags, seeds);
     tagging.collect_tagged_cells(mesh, tags, seeds);
     drop_frozen_tags(mesh, tags, seeds);
-    recorder.tags(mesh, tags, iteration, options.record ? longest_edge() : 0.0);
+    recorder.tags(mesh, tags, iteration, options.record ? longest_edge(mesh, target) : 0.0);
     next_seed = 0;
     first_new = mesh.cell_count();
     inserted = refused = 0;
@@ -243,36 +229,13 @@ struct Adapter<Dim>::State {
   void end_iteration() {
     ++iteration;
     ++iterations;
-    recorder.iteration(mesh, iteration, options.record ? longest_edge() : 0.0);
+    recorder.iteration(mesh, iteration, options.record ? longest_edge(mesh, target) : 0.0);
     if (options.smoothing == Smoothing::between && inserted > 0) {
       stage = Stage::smooth_between;
       begin_smoothing();
     } else {
       stage = Stage::tag;
     }
-  }
-
-  /// limit_not_met when frozen edges are too long.
-  Status look_at_frozen() const {
-    if (!mesh.frozen || mesh.frozen->edges.empty()) return {};
-    const auto lengths = lengths_of(mesh.frozen->edges);
-    const auto count = std::count_if(lengths.begin(), lengths.end(), [&](double l) { return l > options.threshold * 1.001; });
-    if (count == 0) return {};
-    return Status::limit_not_met(std::to_string(count) + (count == 1 ? " edge is" : " edges are") +
-                                 " longer than the threshold, but frozen");
-  }
-
-  std::vector<double> lengths_of(std::span<const std::array<VertexId, 2>> edges) const {
-    std::vector<double> lengths(edges.size());
-    edge_lengths<Dim>(target, mesh.points, edges, lengths, {1e-3, 0.0, 6});
-    return lengths;
-  }
-
-  double longest_edge() const {
-    auto edges = unique_edges(mesh);
-    if (mesh.frozen) std::erase_if(edges, [&](const auto& e) { return is_frozen_edge(mesh, e[0], e[1]); });
-    const auto lengths = lengths_of(edges);
-    return lengths.empty() ? 0.0 : *std::max_element(lengths.begin(), lengths.end());
   }
 
   void begin_smoothing() {
@@ -322,8 +285,8 @@ struct Adapter<Dim>::State {
       if (more) return;
       schedule.reset();
       // What the layers could not shorten the operators may have, and the other way round.
-      const double longest = longest_edge();
-      outcome = longest > options.threshold * 1.001  // to the tolerance of longest_edge
+      const double longest = longest_edge(mesh, target);
+      outcome = longest > options.threshold * (1.0 + kLongestEdgeTolerance)
                     ? Status::limit_not_met("edges longer than the threshold remain")
                     : Status{};
       stage = Stage::done;

@@ -1,0 +1,49 @@
+#include "pillowmesh/adapt/longest_edge.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pillowmesh/mesh/frozen.h"
+#include "pillowmesh/metric/length.h"
+
+namespace pillowmesh {
+namespace {
+
+template <int Dim>
+std::vector<double> lengths_of(std::span<const std::array<VertexId, 2>> edges, const Mesh<Dim>& mesh,
+                               const MetricField<Dim>& field) {
+  std::vector<double> lengths(edges.size());
+  edge_lengths<Dim>(field, mesh.points, edges, lengths, {kLongestEdgeTolerance, 0.0, 6});
+  return lengths;
+}
+
+}  // namespace
+
+template <int Dim>
+double longest_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
+  auto edges = unique_edges(mesh);
+  if (mesh.frozen) std::erase_if(edges, [&](const auto& e) { return is_frozen_edge(mesh, e[0], e[1]); });
+  const auto lengths = lengths_of(edges, mesh, field);
+  return lengths.empty() ? 0.0 : *std::max_element(lengths.begin(), lengths.end());
+}
+
+template <int Dim>
+Status check_frozen_edges(const Mesh<Dim>& mesh, const MetricField<Dim>& field, double threshold) {
+  if (!mesh.frozen || mesh.frozen->edges.empty()) return {};
+  const auto lengths = lengths_of(mesh.frozen->edges, mesh, field);
+  const auto count = std::count_if(lengths.begin(), lengths.end(),
+                                   [&](double l) { return l > threshold * (1.0 + kLongestEdgeTolerance); });
+  if (count == 0) return {};
+  return Status::limit_not_met(std::to_string(count) + (count == 1 ? " edge is" : " edges are") +
+                               " longer than the threshold, but frozen");
+}
+
+template double longest_edge(const Mesh<2>&, const MetricField<2>&);
+template double longest_edge(const Mesh<3>&, const MetricField<3>&);
+template Status check_frozen_edges(const Mesh<2>&, const MetricField<2>&, double);
+template Status check_frozen_edges(const Mesh<3>&, const MetricField<3>&, double);
+
+}  // namespace pillowmesh
