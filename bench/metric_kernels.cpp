@@ -27,27 +27,13 @@ Mesh<2> fine_mesh_of(const char* name, int n) {
   return make_grid<2>({n, n}, low, high);
 }
 
-void evaluate_metric(benchmark::State& state, const char* name) {
-  const auto field = field_of(name);
-  const auto mesh = fine_mesh_of(name, 100);
-  std::vector<SymTensor<2>> tensors(mesh.points.size());
-  for (auto _ : state) {
-    field.evaluate(mesh.points, tensors);
-    benchmark::DoNotOptimize(tensors.data());
-  }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(tensors.size()));
-}
-BENCHMARK_CAPTURE(evaluate_metric, iso2d, "iso2d");
-BENCHMARK_CAPTURE(evaluate_metric, aniso2d, "aniso2d");
-BENCHMARK_CAPTURE(evaluate_metric, circle2d, "circle2d");
-
 /// The same metric from the vertices of a background of 317 x 317 vertices.
 MetricField<2> sampled(const char* name) {
   return *look_up(sample_at_vertices(field_of(name), fine_mesh_of(name, 316)));
 }
 
-void evaluate_sampled(benchmark::State& state, const char* name) {
-  const auto field = sampled(name);
+void evaluate_metric(benchmark::State& state, const char* name, bool from_background) {
+  const auto field = from_background ? sampled(name) : field_of(name);
   const auto mesh = fine_mesh_of(name, 100);
   std::vector<SymTensor<2>> tensors(mesh.points.size());
   for (auto _ : state) {
@@ -56,8 +42,11 @@ void evaluate_sampled(benchmark::State& state, const char* name) {
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(tensors.size()));
 }
-BENCHMARK_CAPTURE(evaluate_sampled, iso2d, "iso2d");
-BENCHMARK_CAPTURE(evaluate_sampled, circle2d, "circle2d");
+BENCHMARK_CAPTURE(evaluate_metric, iso2d, "iso2d", false);
+BENCHMARK_CAPTURE(evaluate_metric, aniso2d, "aniso2d", false);
+BENCHMARK_CAPTURE(evaluate_metric, circle2d, "circle2d", false);
+BENCHMARK_CAPTURE(evaluate_metric, iso2d_background, "iso2d", true);
+BENCHMARK_CAPTURE(evaluate_metric, circle2d_background, "circle2d", true);
 
 /// What the adaptation loop asks, most often near the place before: look-ups in the quadtree over the metric.
 void look_up_in_loop(benchmark::State& state, const char* name, bool from_background) {

@@ -7,6 +7,7 @@
 #include "../catch.h"
 #include "meshes.h"
 #include "pillowmesh/mesh/primitives.h"
+#include "simplices.h"
 
 using namespace pillowmesh;
 
@@ -23,42 +24,17 @@ double volume(const NodalMetric<Dim>& m) {
   return sum / (Dim == 2 ? 2 : 6);
 }
 
-/// Every facet belongs to two simplices, or lies on the boundary of the unit box.
-template <int Dim>
-void check_conforming(const NodalMetric<Dim>& m) {
-  std::vector<std::array<VertexId, Dim>> facets;
-  for (const Simplex<Dim>& s : m.simplices)
-    for (int f = 0; f <= Dim; ++f) {
-      std::array<VertexId, Dim> v;
-      for (int k = 0; k < Dim; ++k) v[k] = s[(f + 1 + k) % (Dim + 1)];
-      std::sort(v.begin(), v.end());
-      facets.push_back(v);
-    }
-  std::sort(facets.begin(), facets.end());
-  for (std::size_t i = 0; i < facets.size();) {
-    const auto end = std::find_if(facets.begin() + i, facets.end(), [&](const auto& f) { return f != facets[i]; });
-    const auto count = end - facets.begin() - static_cast<std::ptrdiff_t>(i);
-    bool on_side = false;
-    for (int d = 0; d < Dim; ++d)
-      for (const double side : {0.0, 1.0})
-        on_side = on_side || std::all_of(facets[i].begin(), facets[i].end(),
-                                         [&](VertexId v) { return m.points[v][d] == side; });
-    CHECK(count == (on_side ? 1 : 2));
-    i += static_cast<std::size_t>(count);
-  }
-}
-
 }  // namespace
 
 TEST_CASE("a grid is divided into conforming simplices that fill it") {
   const auto flat = nodal_grid<2>({3, 5}, {0.0, 0.0}, {1.0, 1.0});
   CHECK(flat.simplices.size() == 2 * 15);
   CHECK(volume(flat) == Approx(1.0));
-  check_conforming(flat);
+  CHECK(checks::conforming(flat));
   const auto solid = nodal_grid<3>({3, 2, 4}, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
   CHECK(solid.simplices.size() == 6 * 24);
   CHECK(volume(solid) == Approx(1.0));
-  check_conforming(solid);
+  CHECK(checks::conforming(solid));
 }
 
 TEST_CASE("hexahedra are divided alike from both sides whatever their local axes") {
@@ -72,7 +48,7 @@ TEST_CASE("hexahedra are divided alike from both sides whatever their local axes
     for (VertexId& v : c) v = v * 5 % n;
   m.simplices = divide<3>(m.points, mesh.cells);
   CHECK(volume(m) == Approx(1.0));
-  check_conforming(m);
+  CHECK(checks::conforming(m));
 }
 
 TEST_CASE("a quad that is not convex is divided along the diagonal inside of it") {

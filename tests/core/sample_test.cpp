@@ -7,6 +7,7 @@
 #include "../catch.h"
 #include "pillowmesh/metric/gallery.h"
 #include "pillowmesh/metric/spectrum.h"
+#include "simplices.h"
 
 using namespace pillowmesh;
 
@@ -37,42 +38,17 @@ double share_off(const NodalMetric<Dim>& nodal, const MetricField<Dim>& field, d
   return off / 2000.0;
 }
 
-/// The facets of all simplices are shared by two, or on the boundary of the box.
-template <int Dim>
-bool conforming(const NodalMetric<Dim>& m, double low, double high) {
-  std::vector<std::array<VertexId, Dim>> facets;
-  for (const auto& s : m.simplices)
-    for (int f = 0; f <= Dim; ++f) {
-      std::array<VertexId, Dim> v;
-      for (int k = 0; k < Dim; ++k) v[k] = s[(f + 1 + k) % (Dim + 1)];
-      std::sort(v.begin(), v.end());
-      facets.push_back(v);
-    }
-  std::sort(facets.begin(), facets.end());
-  for (std::size_t i = 0; i < facets.size();) {
-    const bool twice = i + 1 < facets.size() && facets[i] == facets[i + 1];
-    bool on_side = false;
-    for (int d = 0; d < Dim; ++d)
-      for (const double side : {low, high})
-        on_side = on_side ||
-                  std::all_of(facets[i].begin(), facets[i].end(), [&](VertexId v) { return m.points[v][d] == side; });
-    if (twice == on_side) return false;
-    i += twice ? 2 : 1;
-  }
-  return true;
-}
-
 }  // namespace
 
 TEST_CASE("a sampled metric is the metric, within the tolerance, on a conforming background") {
   const auto circle = *MetricField<2>::from_formula(find_case("circle2d")->formula);
   const auto nodal = sampled(circle, -1.0, 1.0);
-  CHECK(conforming(nodal, -1.0, 1.0));
+  CHECK(checks::conforming(nodal, -1.0, 1.0));
   CHECK(share_off(nodal, circle, -1.0, 1.0) < 0.02);
   CHECK(nodal.points.size() < 60'000);
   const auto sphere = *MetricField<3>::from_formula(find_case("linear3d")->formula);
   const auto solid = sampled(sphere, 0.0, 1.0);
-  CHECK(conforming(solid, 0.0, 1.0));
+  CHECK(checks::conforming(solid, 0.0, 1.0));
   CHECK(share_off(solid, sphere, 0.0, 1.0) < 0.02);
 }
 
