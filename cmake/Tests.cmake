@@ -5,6 +5,12 @@ include(Catch)
 
 add_executable(pillowmesh_tests ${test_sources})
 pillowmesh_compile_options(pillowmesh_tests)
+# Most of the time that tests take is that of their compilation.
+target_precompile_headers(pillowmesh_tests PRIVATE tests/catch.h core/pillowmesh/mesh/mesh.h)
+set_source_files_properties(tests/core/main.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON)  # defines before it includes
+if(NOT MSVC)
+  target_compile_options(pillowmesh_tests PRIVATE $<$<CONFIG:Release>:-O1>)
+endif()
 target_include_directories(pillowmesh_tests PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/tests)
 target_compile_definitions(pillowmesh_tests PRIVATE
   PILLOWMESH_VERSION="${PROJECT_VERSION}"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
@@ -90,7 +91,7 @@ std::vector<Index> cell_tags(const MeshInput<Dim>& input) {
 }
 
 inline std::string read_data(const std::string& name) {
-  std::ifstream file(std::string(PILLOWMESH_TEST_DATA) + "/" + name, std::ios::binary);
+  std::ifstream file(std::filesystem::path(PILLOWMESH_TEST_DATA) / name, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
