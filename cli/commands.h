@@ -36,7 +36,7 @@ struct AdaptFlags {
   WriteOptions write;
   std::string output;
   std::string solution;  ///< a .sol of the input
-  bool fields = true;    ///< carry the arrays of a VTK input
+  bool no_fields = false;  ///< do not carry the arrays of a VTK input
   std::string steps;   ///< folder for one file per iteration
   std::string report;  ///< file, or "-"
   bool quiet = false;

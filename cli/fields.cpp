@@ -58,7 +58,7 @@ std::string count(std::size_t n, const char* what) {
 Expected<std::optional<AnySolution>> load_fields(const AdaptFlags& flags) {
   std::optional<AnySolution> none;
   const bool primitive = is_primitive(flags.problem.input) || flags.problem.input.empty();
-  const bool arrays = flags.fields && !primitive && is_vtk(flags.problem.input) && is_vtk(flags.output);
+  const bool arrays = !flags.no_fields && !primitive && is_vtk(flags.problem.input) && is_vtk(flags.output);
   if (flags.output.empty() || (!arrays && flags.solution.empty())) return none;
   if (primitive) return Status::usage("--solution belongs to a mesh file");
   auto bytes = read_file(flags.problem.input);

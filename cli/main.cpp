@@ -50,6 +50,7 @@ using Given = std::map<std::string, std::string>;
 
 void add_problem(CLI::App& app, ProblemFlags& flags, Given& given) {
   app.add_option("input", flags.input, "Mesh file or grid:...; may be left out with --case");
+  app.option_defaults()->group("Metric");
   app.add_option("--metric", flags.metric, "Metric formula")->type_name("FORMULA");
   app.add_option("--metric-file", flags.metric_file,
                  "Metric from a Medit .sol or .solb file: a size or tensor per vertex")
@@ -82,6 +83,7 @@ void add_problem(CLI::App& app, ProblemFlags& flags, Given& given) {
   app.add_option("--size-scale", flags.size_scale, "Multiplies all sizes of the metric")->type_name("F");
   for (const OptionHelp& o : kOperations)
     app.add_option(std::string("--") + o.name, given[o.name], o.text)->type_name(o.type);
+  app.option_defaults()->group("Options");
 }
 
 Status set_operations(const CLI::App& app, const Given& given, ProblemFlags& flags) {
@@ -178,6 +180,7 @@ int run(int argc, char** argv) {
   Given given, measure_given, metric_given;
   CLI::App* adapt_app = app.add_subcommand("adapt", "Adapt a mesh to a metric");
   add_problem(*adapt_app, adapt_flags.problem, given);
+  adapt_app->option_defaults()->group("Method");
   for (const OptionHelp& o : kOptions)
     adapt_app->add_option(std::string("--") + o.name, given[o.name], o.text)->type_name(o.type);
   std::vector<std::string> freeze;
@@ -187,13 +190,14 @@ int run(int argc, char** argv) {
                    "required entities of a Medit file")
       ->type_name("GROUP")
       ->allow_extra_args(false);
+  adapt_app->option_defaults()->group("Output");
   adapt_app->add_option("-o,--output", adapt_flags.output, "Adapted mesh; its ending chooses the format")
       ->type_name("OUT");
   add_write(*adapt_app, adapt_flags.write, adapt_gmsh);
   adapt_app->add_option("--solution", adapt_flags.solution,
                         "Carry the fields of this .sol at the input's vertices: to a .sol beside OUT, or into a VTK file")
       ->type_name("F.sol");
-  adapt_app->add_flag("!--no-fields", adapt_flags.fields, "Do not carry the arrays of a VTK input to a VTK output");
+  adapt_app->add_flag("--no-fields", adapt_flags.no_fields, "Do not carry the arrays of a VTK input to a VTK output");
   adapt_app
       ->add_option("--steps", adapt_flags.steps,
                    "Write the mesh after each iteration, and the last: DIR/step-000.vtu, ...")

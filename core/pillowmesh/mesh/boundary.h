@@ -56,7 +56,7 @@ struct BoundaryOptions {
   /// turns by an angle whose cosine is below this. The default is 40 degrees.
   double corner_cosine = 0.7660444431189780;
   /// Groups, by name or number, whose vertices, edges, facets and cells must be in the output as they are in the input.
-  std::vector<std::string> freeze;
+  std::vector<std::string> freeze{};
 };
 
 /// Builds a mesh from what a reader found: drops unused vertices, finds neighbours, checks (see validate.h), splits
