@@ -119,7 +119,7 @@ function randomMetrics(count) {
 
 /** What full adaptation was not tuned for. */
 function othersTable(binary) {
-  const layer = 'd = abs(sqrt((x - 1.6)^2 + (y - 1)^2) - 0.4); h1 = 0.01 + 0.2*d; h2 = 0.04 + 0.2*d; theta = atan2(y - 1, x - 1.599999)';
+  const layer = 'd = abs(sqrt((x - 1.2)^2 + (y - 1)^2) - 0.4); h1 = 0.01 + 0.2*d; h2 = 0.04 + 0.2*d; theta = atan2(y - 1, x - 1.2)';
   const runs = [
     ['plate with a hole, layers around it', ['tests/data/plate_hole_v4.msh', '--metric', layer]],
     ['L, layers along `walls`', ['tests/data/lshape_v2.msh', '--boundary-layer', 'walls:0.01:1.3', '--hmax', '0.1']],

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMostExcess = 2;        ///< changes that make more irregularity than this hardly ever pay
 constexpr double kNoise = 0.001;      ///< a gain smaller than this is none
-constexpr double kChordGain = 0.03;   ///< expected of a chord to be tried, for each of its cells
+constexpr double kChordGain = 0.05;   ///< expected of a chord to be tried, for each of its cells
 constexpr double kPoorCell = 0.1;     ///< energy above which a cell is looked at
 /// What a cell is worth beyond its energy. An opening is relaxed from a sliver and judged too early more often than a
 /// collapse; without this the search loses cells. Opening and collapsing again cannot go on for ever: what one may cost

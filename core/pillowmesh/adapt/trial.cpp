@@ -26,7 +26,7 @@ Patience patience(Operator op) {
     case Operator::chord_collapse:
     case Operator::chord_split: break;
   }
-  return {0, 4, 12, 0.0, 10.0};  // the rows beside it have to give way, and those beside them
+  return {0, 3, 6, 0.0, 2.0};  // the rows beside it have to give way, and those beside them
 }
 
 }  // namespace
