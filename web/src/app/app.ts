@@ -11,7 +11,7 @@ import { makeTransport } from '../panels/transport.ts';
 import { Stage } from '../stage/stage.ts';
 import { legendOf, summaryOf } from '../stage/words.ts';
 import { decodeSettings, encodeSettings, sameComputation } from '../state/permalink.ts';
-import { type Mark, type MeshChoice, type Pace, type Settings } from '../state/settings.ts';
+import { lastEvent, type Mark, type MeshChoice, type Pace, type Settings } from '../state/settings.ts';
 import { debounce, h, showOnce } from '../ui/dom.ts';
 import { icon } from '../ui/icons.ts';
 import { Comparing } from './comparing.ts';
@@ -23,6 +23,7 @@ import { keyActions } from './keys.ts';
 import { isMetric, takeAsMetric } from './given_metric.ts';
 import { firstVisit } from './first_visit.ts';
 import { messageOf } from './mishaps.ts';
+import type { Following, Question } from './following.ts';
 import type { Sketching } from './sketching.ts';
 import { followTheme, toggleTheme } from './theme.ts';
 
@@ -40,6 +41,7 @@ export class App {
     done: () => undefined,
     stepped: () => undefined,
     tell: (error) => this.tell(error),
+    follow: () => this.live && (void this.keepUp(), true),
   });
   private readonly history = new History((link) => void this.follow(decodeSettings(link)));
   private readonly comparing = new Comparing(
@@ -48,6 +50,7 @@ export class App {
     (error) => this.tell(error),
   );
   private sketching: Sketching | null = null;
+  private following: Following | null = null;
   private readonly messages = makeMessages();
   private readonly indicators = makeIndicators({
     pick: (measure, range) => this.pick(measure, range),
@@ -90,12 +93,12 @@ export class App {
     changeFormula: debounce(300, (text: string) => void this.applyFormula(text)),
     changeOption: (name, value) => {
       this.settings.options[name] = value;
-      void this.stage.run.forget();
+      void (this.live ? this.keepUp() : this.stage.run.forget());
     },
     sketch: () => void this.sketch(),
     compareWith: (compare) => this.change({ compare }),
-    run: () => void this.stage.run.start('play'),
-    stop: () => void this.stage.run.stop(),
+    run: () => void (this.live ? this.keepUp() : this.stage.run.start('play')),
+    stop: () => void (this.following?.working ? this.following.stop() : this.stage.run.stop()),
   });
   private readonly start_ = h(
     'button',
@@ -215,12 +218,37 @@ export class App {
     this.messages.clear();
     const before = this.settings;
     this.settings = next;
-    if (!sameComputation(before, next)) return this.applySettings();
+    const { live } = this;
+    if (!sameComputation(before, next)) {
+      const ask = live && next.event === lastEvent && JSON.stringify(before.mesh) === JSON.stringify(next.mesh);
+      const formula = next.formula || stage.subject.ownFormula(next.mesh);
+      if (ask && (next.sketch || formula)) return this.keepUp(next.sketch ? { sketch: next.sketch } : { formula });
+      return this.applySettings();
+    }
     stage.player.pace = next.pace;
     stage.picture.setLook(next);
     stage.picture.pose = next.camera;
-    await stage.seek(next.event ?? 0);
+    if (!live || next.event !== lastEvent || !stage.player.atEnd) await stage.seek(next.event ?? 0);
     this.refresh();
+  }
+
+  /** Whether the mesh follows its metric: full adaptation, of quadrilaterals. */
+  private get live(): boolean {
+    return this.settings.options.method === 'full' && this.stage.player.mesh.dim === 2;
+  }
+
+  private async keepUp(question: Question = {}): Promise<void> {
+    const { Following } = await import('./following.ts');
+    if (!this.following) {
+      this.following = new Following(this.stage, {
+        refresh: () => this.refresh(),
+        asked: () => this.writeLink(),
+        setStatus: (sentence) => this.setup.setStatus(sentence),
+        refused: (error) => this.refused(error),
+      });
+      document.querySelector('.stage')?.append(this.following.element);
+    }
+    this.following.request(question);
   }
 
   /** Opens what the visitor has chosen; false when it was refused. */
@@ -228,19 +256,32 @@ export class App {
     if (!(await this.stage.open(choice, formula))) return false;
     this.messages.clear();
     this.settings.camera = null;
+    if (this.live) void this.keepUp();
     const { inside } = this.settings; // layers and qualities are those of another mesh
     this.change({ inside: { ...inside, peel: 0, quality: { ...inside.quality, low: 0, high: 1 } } });
     return true;
   }
 
   private openFile(file: File): Promise<void> {
-    if (isMetric(file)) return takeAsMetric(this.stage, file, this.messages).catch((error: unknown) => this.tell(error));
+    if (isMetric(file)) return this.takeMetric(file);
     return this.stage.subject.openFile(file, (choice) => this.open(choice, ''));
+  }
+
+  private async takeMetric(file: File): Promise<void> {
+    try {
+      await takeAsMetric(this.stage, file, this.messages);
+      if (this.stage.player.mesh.dim === 3) return;
+      (await import('./following.ts')).goLive(this.stage);
+      await this.keepUp();
+    } catch (error) {
+      this.tell(error);
+    }
   }
 
   private opened(formula: string): void {
     const { mesh } = this.settings;
-    this.setup.formula.setText(formula);
+    // What has been typed meanwhile is asked next.
+    if (!this.live || !this.setup.formula.element.contains(document.activeElement)) this.setup.formula.setText(formula);
     this.setup.formula.setError(null);
     const own = mesh.kind === 'case' && formula === this.stage.subject.ownFormula(mesh);
     this.indicators.setCase(own ? mesh.name : null);
@@ -248,17 +289,22 @@ export class App {
   }
 
   private async applyFormula(text: string): Promise<void> {
+    if (this.live) return this.keepUp({ formula: text });
     try {
       await this.stage.setFormula(text, () => text === this.setup.formula.text()); // else: typed on meanwhile
     } catch (error) {
-      if (error instanceof CoreError) this.setup.formula.setError(error.message);
-      else this.tell(error);
+      this.refused(error);
     }
+  }
+
+  private refused(error: unknown): void {
+    if (error instanceof CoreError) this.setup.formula.setError(error.message);
+    else this.tell(error);
   }
 
   private async sketch(): Promise<void> {
     const { Sketching } = await import('./sketching.ts');
-    this.sketching ??= new Sketching(this.stage, this.setup.sketchPlace, (error) => this.tell(error));
+    this.sketching ??= new Sketching(this.stage, this.setup.sketchPlace, (question) => void this.keepUp(question), (error) => this.tell(error));
     await this.sketching.toggle();
   }
 
@@ -319,7 +365,7 @@ export class App {
       mesh: settings.mesh,
       options: settings.options,
       compare: settings.compare,
-      running: workshop.running,
+      running: workshop.running || this.following?.working === true,
       summary: subject.empty ? '' : summaryOf(settings.mesh, subject.initial),
     });
     this.tools.update({ marks: settings.marks, colouring: settings.colouring, dim });

@@ -1,4 +1,5 @@
 // Beside the picture of a hexahedral mesh: what is cut away, peeled off, hidden, and drawn as glass.
+import '../../style/inside_panel.css';
 import {
   anglesOf,
   bodies,

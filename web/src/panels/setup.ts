@@ -43,10 +43,10 @@ const optionFields: readonly { name: OptionName; label: string; hint: string; ch
   {
     name: 'method',
     label: 'Method',
-    hint: 'The paper refines. Full adaptation of quads then coarsens, reconnects and aligns too.',
+    hint: 'The paper refines. Full adaptation of quads also coarsens, reconnects and aligns, and follows every change.',
     choices: [
       { value: 'paper', label: 'the paper’s' },
-      { value: 'full', label: 'full' },
+      { value: 'full', label: 'full, live' },
     ],
   },
   {

@@ -150,25 +150,28 @@ export class Picture {
     return this.jacobians.values;
   }
 
-  /** Samples and draws the metric ellipses over an initial mesh. */
-  async refreshEllipses(initial: MeshArrays, tensors: (points: Float64Array) => Promise<Float64Array>): Promise<void> {
-    const { mesh } = this.player;
+  /** Samples and draws the metric ellipses over an initial mesh, if it is still `wanted` then. */
+  async refreshEllipses(
+    initial: MeshArrays,
+    tensors: (points: Float64Array) => Promise<Float64Array>,
+    wanted: () => boolean,
+  ): Promise<void> {
     if (!this.viewport || initial.dim !== 2) return;
     const { sampleEllipses } = await import('../viewport/ellipse_samples.ts');
     const samples = await sampleEllipses(new ReplayMesh(initial), tensors);
-    if (mesh === this.player.mesh) this.viewport?.setEllipses(samples.centres, samples.tensors);
-    await this.refreshIsolines(initial, tensors);
+    if (wanted()) this.viewport?.setEllipses(samples.centres, samples.tensors);
+    await this.refreshIsolines(initial, tensors, wanted);
   }
 
   private async refreshIsolines(
     initial: MeshArrays,
     tensors: (points: Float64Array) => Promise<Float64Array>,
+    wanted: () => boolean,
   ): Promise<void> {
-    const { mesh } = this.player;
     if (!this.look.marks.isolines) return this.viewport?.setIsolines(new Float32Array(0));
     const { sampleIsolines } = await import('../viewport/isolines.ts');
     const segments = await sampleIsolines(new ReplayMesh(initial), tensors);
-    if (mesh === this.player.mesh) this.viewport?.setIsolines(segments);
+    if (wanted()) this.viewport?.setIsolines(segments);
   }
 
   clearEllipses(): void {
