@@ -52,7 +52,17 @@ export default defineConfig({
       // Other sites write this name into their pages.
       output: {
         entryFileNames: ({ name }) => (name === 'pillow-mesh' ? '[name].js' : 'assets/[name]-[hash].js'),
-        codeSplitting: { groups: [{ name: 'three', test: /node_modules[\\/]three/ }] },
+        // What is wanted together comes together: many small parts compress badly.
+        codeSplitting: {
+          includeDependenciesRecursively: false,
+          groups: [
+            { name: 'three', test: /node_modules[\\/]three/ },
+            { name: 'drawing', test: /src[\\/]viewport[\\/](?!palette)|stage[\\/]pointing|inside[\\/](anatomy|facets|irregular_edges|chords)/ },
+            { name: 'sketching', test: /src[\\/]sketch[\\/]|app[\\/](sketching|following)|style[\\/](sketch|following)/ },
+            { name: 'saving', test: /src[\\/]export[\\/]|app[\\/]saving/ },
+            { name: 'common', test: /wasm[\\/]events|inside[\\/](look_inside|neighbours)|state[\\/]|ui[\\/]dom|replay[\\/]caption/ },
+          ],
+        },
       },
     },
   },
