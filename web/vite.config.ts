@@ -57,7 +57,7 @@ export default defineConfig({
           includeDependenciesRecursively: false,
           groups: [
             { name: 'three', test: /node_modules[\\/]three/ },
-            { name: 'drawing', test: /src[\\/]viewport[\\/](?!palette)|stage[\\/]pointing|inside[\\/](anatomy|facets|irregular_edges|chords)/ },
+            { name: 'drawing', test: /src[\\/]viewport[\\/](?!palette)|stage[\\/]pointing|inside[\\/](anatomy|facets|irregular_edges|chords|relief)/ },
             { name: 'sketching', test: /src[\\/]sketch[\\/]|app[\\/](sketching|following)|style[\\/](sketch|following)/ },
             { name: 'saving', test: /src[\\/]export[\\/]|app[\\/]saving/ },
             { name: 'common', test: /wasm[\\/]events|inside[\\/](look_inside|neighbours)|state[\\/]|ui[\\/]dom|replay[\\/]caption/ },

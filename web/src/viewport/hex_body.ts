@@ -5,6 +5,7 @@ import { Anatomy } from '../inside/anatomy.ts';
 import { drawing, glassFacets, solidFacets } from '../inside/facets.ts';
 import { irregularKinds } from '../inside/irregular_edges.ts';
 import { keptCells, type Inside } from '../inside/look_inside.ts';
+import { outlineOf, reliefOf } from '../inside/relief.ts';
 import type { ReplayMesh } from '../replay/replay_mesh.ts';
 import type { Scene } from '../replay/scene.ts';
 import type { Mark } from '../state/settings.ts';
@@ -42,6 +43,7 @@ export class HexBody {
     new Strokes({ width: 2.6, opacity: 0.3 }, 2),
     new Strokes({ width: 3.6, lift: 4e-4 }, 3 + 0.1 * kind),
   ]);
+  private readonly outline = new Strokes({ width: 2, lift: 3e-4, outline: true }, 1);
   private anatomy: Anatomy | null = null;
 
   constructor() {
@@ -50,11 +52,12 @@ export class HexBody {
   }
 
   get strokes(): Strokes[] {
-    return this.edges.flat();
+    return [this.outline, ...this.edges.flat()];
   }
 
   setPalette(palette: Palette): void {
     this.glass.setPalette(palette);
+    this.outline.setColour(palette.outline);
     this.edges.forEach((pair, kind) => pair.forEach((strokes) => strokes.setColour(palette.irregular[kind])));
   }
 
@@ -68,6 +71,7 @@ export class HexBody {
 
   setProgress(progress: number): void {
     this.glass.setProgress(progress);
+    this.outline.object.visible = progress === 1; // it is that of the mesh as it will be
   }
 
   /** Nothing is drawn any more, e.g. because a mesh of quadrilaterals came. */
@@ -95,8 +99,13 @@ export class HexBody {
       irregular: inside.irregular ? anatomy.irregular.map((edges) => edges.length / 2) : null,
     };
     const draw = this.drawingOf(kept, scene, inside, shown);
-    solid.replace(mesh, solidFacets(mesh, anatomy.neighbours, draw), origins);
-    this.glass.replace(mesh, glassFacets(mesh, anatomy.neighbours, draw), origins);
+    const seen = solidFacets(mesh, anatomy.neighbours, draw);
+    const relief = reliefOf(mesh, seen);
+    const { edges, normals } = outlineOf(mesh.vertexCount, seen, relief);
+    solid.replace(mesh, seen, relief, origins);
+    this.outline.setSegments(segmentsOf(mesh, edges), normals);
+    const glass = glassFacets(mesh, anatomy.neighbours, draw);
+    this.glass.replace(mesh, glass, reliefOf(mesh, glass), origins);
     this.setEdges(mesh, kept, inside.irregular);
     performance.measure('pillowmesh: facets', { start });
     return report;
