@@ -59,7 +59,7 @@ export default defineConfig({
             { name: 'three', test: /node_modules[\\/]three/ },
             { name: 'drawing', test: /src[\\/]viewport[\\/](?!palette)|stage[\\/]pointing|inside[\\/](anatomy|facets|irregular_edges|chords|relief)/ },
             { name: 'sketching', test: /src[\\/]sketch[\\/]|app[\\/](sketching|following)|style[\\/](sketch|following)/ },
-            { name: 'saving', test: /src[\\/]export[\\/]|app[\\/]saving/ },
+            { name: 'extras', test: /src[\\/]export[\\/]|app[\\/](saving|compare\.|brightness|camera_picture)|panels[\\/](help|embed_dialog)/ },
             { name: 'common', test: /wasm[\\/]events|inside[\\/](look_inside|neighbours)|state[\\/]|ui[\\/]dom|replay[\\/]caption/ },
           ],
         },

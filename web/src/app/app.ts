@@ -69,6 +69,12 @@ export class App {
   private readonly inside = makeLookInside({
     change: (inside) => this.change({ inside }),
     viewDirection: () => this.stage.picture.direction,
+    flyTo: (cell) => this.stage.picture.pin(cell),
+    takePicked: () => {
+      const { picked } = this.stage.picture;
+      this.stage.picture.unpick();
+      return picked;
+    },
   });
   private readonly tools = makePictureTools({
     inside: this.inside.toggle,
@@ -258,7 +264,7 @@ export class App {
     this.settings.camera = null;
     if (this.live) void this.keepUp();
     const { inside } = this.settings; // layers and qualities are those of another mesh
-    this.change({ inside: { ...inside, peel: 0, quality: { ...inside.quality, low: 0, high: 1 } } });
+    this.change({ inside: { ...inside, peel: 0, quality: { ...inside.quality, low: 0, high: 1 }, without: [], around: [] } });
     return true;
   }
 
@@ -372,7 +378,7 @@ export class App {
     this.inside.update(settings.inside, dim);
     this.indicators.setPicked(settings.inside.quality.measure, pickedRange(settings.inside.quality));
     this.tools.setLegend(legendOf(settings.colouring, picture.colours, player.iterations));
-    this.start_.hidden = run.hasRun || subject.empty;
+    this.start_.hidden = run.hasRun || subject.empty || looksInside(settings.inside);
     this.indicators.setIrregular(player.atEnd && player.complete ? run.irregular : null);
     this.comparing.update(settings);
     this.sketching?.update();

@@ -55,7 +55,7 @@ export function reliefOf({ points, vertexCount }: ReplayMesh, { vertices, outwar
       const all = Math.max(at[a], 0) + Math.max(at[b], 0) + Math.max(at[c], 0) + Math.max(at[d], 0);
       for (const v of [a, b, c, d]) around[v] += (all - Math.max(at[v], 0)) / 3;
     }
-    at = at.map((x, v) => (facets[v] ? Math.max(x, (kept * around[v]) / facets[v]) : 0));
+    at = at.map((x, v) => (around[v] > 0 ? Math.max(x, (kept * around[v]) / facets[v]) : x));
   }
   return { normals, hollow: Float32Array.from(vertices, (v) => at[v]) };
 }

@@ -156,10 +156,11 @@ export class Picture {
     tensors: (points: Float64Array) => Promise<Float64Array>,
     wanted: () => boolean,
   ): Promise<void> {
-    if (!this.viewport || initial.dim !== 2) return;
+    if (!this.viewport) return;
     const { sampleEllipses } = await import('../viewport/ellipse_samples.ts');
     const samples = await sampleEllipses(new ReplayMesh(initial), tensors);
     if (wanted()) this.viewport?.setEllipses(samples.centres, samples.tensors);
+    if (initial.dim === 3) return this.paint();
     await this.refreshIsolines(initial, tensors, wanted);
   }
 
@@ -285,6 +286,16 @@ export class Picture {
   /** Flies to a cell, draws around it, and tells its numbers. */
   pin(cell: number): void {
     this.pointing?.pin(cell);
+  }
+
+  /** The cell that a click has framed, or a flight; -1: none. */
+  get picked(): number {
+    return this.pointing?.picked ?? -1;
+  }
+
+  /** What was picked is let go. */
+  unpick(): void {
+    this.pointing?.pick(-1);
   }
 
   /** 0 to 1 for each cell, as its colour map has it; -1: no colour. */

@@ -1,6 +1,6 @@
 // A hexahedral mesh as it is looked into: solid cells, cells of glass, irregular edges. Rebuilt when the mesh or what
 // is hidden changes, never while the camera moves.
-import { Group } from 'three';
+import { Group, type Matrix4 } from 'three';
 import { Anatomy } from '../inside/anatomy.ts';
 import { drawing, glassFacets, solidFacets } from '../inside/facets.ts';
 import { irregularKinds } from '../inside/irregular_edges.ts';
@@ -33,6 +33,8 @@ export interface Wishes {
   faded: (cell: number) => boolean;
   /** Where vertices were before the change that is being shown. */
   origins?: Origins | undefined;
+  /** There are metric ellipsoids to be seen inside. */
+  glyphs: boolean;
 }
 
 export class HexBody {
@@ -85,8 +87,9 @@ export class HexBody {
     solid: FaceLayer,
     mesh: ReplayMesh,
     scene: Scene,
-    { inside, shown, faded, origins }: Wishes,
+    wishes: Wishes,
   ): InsideReport {
+    const { inside, faded, origins } = wishes;
     const start = performance.now();
     if (this.anatomy?.mesh !== mesh) this.anatomy = new Anatomy(mesh);
     const { anatomy } = this;
@@ -98,7 +101,7 @@ export class HexBody {
       deepest: anatomy.depths.deepest,
       irregular: inside.irregular ? anatomy.irregular.map((edges) => edges.length / 2) : null,
     };
-    const draw = this.drawingOf(kept, scene, inside, shown);
+    const draw = this.drawingOf(kept, scene, inside, wishes);
     const seen = solidFacets(mesh, anatomy.neighbours, draw);
     const relief = reliefOf(mesh, seen);
     const { edges, normals } = outlineOf(mesh.vertexCount, seen, relief);
@@ -116,19 +119,25 @@ export class HexBody {
     this.glass.paintCells(value, mark);
   }
 
+  /** See FaceLayer.cellAt. */
+  cellAt(x: number, y: number, matrix: Matrix4): number {
+    return this.glass.cellAt(x, y, matrix);
+  }
+
   dispose(): void {
     this.glass.dispose();
     for (const strokes of this.strokes) strokes.dispose();
   }
 
-  private drawingOf(kept: Uint8Array, scene: Scene, { body }: Inside, shown: Record<Mark, boolean>): Uint8Array {
+  private drawingOf(kept: Uint8Array, scene: Scene, { body, around }: Inside, { shown, glyphs }: Wishes): Uint8Array {
     const layer = shown.layer ? scene.layer : [];
     const buffer = shown.buffer ? scene.buffer : [];
     const tags = shown.tags ? scene.tags : [];
-    const glass = body === 'glass' || (body === 'auto' && layer.length + buffer.length + tags.length > 0);
+    const inner = layer.length + buffer.length + tags.length + around.length > 0 || glyphs;
+    const glass = body === 'glass' || (body === 'auto' && inner);
     const draw = kept.map((k) => (k ? (glass ? drawing.glass : drawing.solid) : drawing.hidden));
     if (!glass) return draw;
-    for (const c of layer) if (kept[c]) draw[c] = drawing.solid;
+    for (const c of [...layer, ...around]) if (kept[c]) draw[c] = drawing.solid;
     for (const c of buffer) if (kept[c]) draw[c] = drawing.tinted;
     return draw;
   }

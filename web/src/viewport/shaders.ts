@@ -187,3 +187,29 @@ export const ellipseFragmentShader = /* glsl */ `
     ${output}
   }
 `;
+
+/** Ellipsoids as the image of the unit ball, whose normals go by the inverse transpose. */
+export const ellipsoidVertexShader = /* glsl */ `
+  in vec3 centre;
+  in vec3 axis1;
+  in vec3 axis2;
+  in vec3 axis3;
+  out vec3 normalSeen;
+
+  void main() {
+    mat3 axes = mat3(axis1, axis2, axis3);
+    normalSeen = normalMatrix * (transpose(inverse(axes)) * position);
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(centre + axes * position, 1.0);
+  }
+`;
+
+export const ellipsoidFragmentShader = /* glsl */ `
+  in vec3 normalSeen;
+  uniform vec3 colour;
+
+  void main() {
+    vec3 n = normalize(normalSeen);
+    gl_FragColor = vec4(colour * (0.6 + 0.5 * n.z) + 0.16 * max(n.y, 0.0), 1.0);
+    ${output}
+  }
+`;
