@@ -89,11 +89,13 @@ export function makeBoard(host: BoardHost): Board {
   });
 
   function update(): void {
+    // The camera looks straight down: three places tell where all others are.
     const box = surface.getBoundingClientRect();
-    const seen = ([x, y]: readonly [number, number]): [number, number] => {
-      const [u, v] = host.picture.screenOf(x, y);
-      return [u - box.left, v - box.top];
-    };
+    const [origin, right, up] = [[0, 0], [1, 0], [0, 1]].map(([x, y]) => host.picture.screenOf(x, y));
+    const seen = ([x, y]: readonly [number, number]): [number, number] => [
+      origin[0] - box.left + x * (right[0] - origin[0]) + y * (up[0] - origin[0]),
+      origin[1] - box.top + x * (right[1] - origin[1]) + y * (up[1] - origin[1]),
+    ];
     surface.replaceChildren(
       ...all().flatMap(({ points, size, stretch }) => {
         const ends = (points.length === 1 ? [points[0], points[0]] : points).map(seen);

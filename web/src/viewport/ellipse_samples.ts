@@ -76,7 +76,7 @@ export async function sampleEllipses(mesh: ReplayMesh, tensors: Tensors): Promis
     const next: Piece[] = [];
     open.forEach((piece, i) => {
       const across = lengths(piece, m, i);
-      if (dim === 3 && Math.min(...across) < 0.5) return; // larger than what it stands in: it would hide the others
+      if (dim === 3 && Math.min(...across) < 0.7) return; // larger than what it stands in: it would hide the others
       const parts = across.map((l) => Math.max(1, Math.min(3, Math.floor(l))));
       const room = centres.length + next.length + open.length - i < most;
       if (round < rounds && room && parts.some((n) => n > 1)) {

@@ -209,7 +209,7 @@ export const ellipsoidFragmentShader = /* glsl */ `
 
   void main() {
     vec3 n = normalize(normalSeen);
-    gl_FragColor = vec4(colour * (0.6 + 0.5 * n.z) + 0.16 * max(n.y, 0.0), 1.0);
+    gl_FragColor = vec4(colour * (0.55 + 0.45 * n.z + 0.1 * n.y) + 0.05 * (1.0 + n.y), 1.0);
     ${output}
   }
 `;

@@ -45,6 +45,7 @@ export class Viewport {
   private inside: Inside = defaultInside();
   private origins: Origins | undefined;
   private frame = 0;
+  private size = '';
   private animation: { start: number; duration: number } | null = null;
   private shown: Record<Mark, boolean> = { ...defaultMarks };
 
@@ -253,12 +254,17 @@ export class Viewport {
     this.triad.element.remove();
   }
 
+  /** The frustum anew; the canvas, which costs, only when its size has changed. */
   private resize(): void {
     const width = Math.max(1, this.host.clientWidth);
     const height = Math.max(1, this.host.clientHeight);
+    const ratio = Math.min(devicePixelRatio, 2);
+    const size = `${width} ${height} ${ratio}`;
     this.view.setFrustum(width, height);
+    if (size === this.size) return this.requestRender();
+    this.size = size;
     this.renderer.setSize(width, height);
-    this.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.setPixelRatio(ratio);
     this.draw(performance.now()); // at once: resizing has emptied the canvas
   }
 
