@@ -141,6 +141,27 @@ describe('a picture', () => {
   });
 });
 
+describe('the camera', () => {
+  test('is asked for on a click; its picture becomes the metric, and a refusal is told', async () => {
+    await visit('#mesh=grid:8,8:0,1,0,1&metric=h %3D 0.3&hide=ellipses');
+    await page.locator('summary', { hasText: 'Another initial mesh' }).click();
+    await page.getByRole('button', { name: 'Take a picture' }).click();
+    await expect.poll(() => page.locator('.message').innerText(), eventually).toMatch(/^The camera was refused. Allow it/);
+    await page.context().grantPermissions(['camera']);
+    await page.getByRole('button', { name: 'Take a picture' }).click();
+    await expect.poll(() => page.locator('video').evaluate((video) => (video as HTMLVideoElement).videoWidth), eventually).toBeGreaterThan(0);
+    await page.screenshot({ path: join(screenshots, 'camera.png') });
+    await page.getByRole('button', { name: 'Take the picture' }).click();
+    await page.locator('.message', { hasText: 'made from the camera' }).waitFor(eventually);
+    const ideal = page.locator('.facts > div', { hasText: 'Ideal' }).locator('dd');
+    await expect.poll(async () => Number((await ideal.innerText()).replace(/,/g, '')), eventually).toBeGreaterThan(1500);
+    await page.locator('.following').waitFor(); // the mesh follows by itself
+    await page.getByRole('button', { name: 'Stop' }).click();
+    await expect.poll(() => page.locator('.following').isHidden(), eventually).toBe(true);
+    expect(complaints).toEqual([]);
+  });
+});
+
 describe('comparing', () => {
   test('lays a second answer over the first, with a slider between them', async () => {
     await visit('#case=circle2d&event=last&hide=ellipses');
