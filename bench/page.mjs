@@ -172,8 +172,8 @@ await main(async () => {
       }),
       playing: () => longTasks(browser, address),
       stroke: async () => ({
-        paper: await strokes(browser, address, { method: 'paper' }, 0.008),
-        full: await strokes(browser, address, full, 0.01),
+        paper: await strokes(browser, address, { method: 'paper' }, 0.0058),
+        full: await strokes(browser, address, full, 0.005),
       }),
       frames: async () => ({
         quads100000: await frames(browser, address, 'grid:400,250:0,1.6,0,1'),

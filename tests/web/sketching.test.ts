@@ -1,17 +1,23 @@
 // Drawing a metric by hand, and a mesh that follows it.
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { describe, expect, test } from 'vitest';
 import { decodeSketch, encodeSketch, formulaOfSketch, simplified, type Stroke } from '../../web/src/sketch/sketch.ts';
 import { complaints, eventually, page, part, visit } from './browsing.ts';
 import { screenshots } from './site.ts';
 
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+interface Axe {
+  run(): Promise<{ violations: { id: string }[] }>;
+}
 const cells = async (): Promise<number> => Number((await page.locator('.facts dd').first().innerText()).replace(/,/g, ''));
 const status = (): Promise<string> => page.locator('.status').innerText();
 const done = () => expect.poll(() => page.locator('.following').isHidden(), eventually).toBe(true);
 
 describe('sketching', () => {
   test('the mesh follows while a stroke is drawn, then improves; stop, undo, redo and a link keep what is shown', async () => {
-    await visit('#mesh=grid:6,6:0,1,0,1&metric=h %3D 0.2&hide=ellipses');
+    await visit('#mesh=grid:6,6:0,1,0,1&metric=h %3D 0.2&hide=ellipses', { bypassCSP: true });
     await page.getByRole('button', { name: 'Sketch it instead' }).click();
     await page.getByRole('slider', { name: 'Size' }).fill('0.03');
     await page.getByRole('slider', { name: 'Stretch' }).fill('3');
@@ -30,6 +36,11 @@ describe('sketching', () => {
     expect(part('event')).toBe('last');
     await expect.poll(() => page.locator('.following [data-state=done]').count(), eventually).toBeGreaterThan(0);
     await page.screenshot({ path: join(screenshots, 'following.png') });
+    await page.evaluate(axe);
+    for (const colorScheme of ['light', 'dark'] as const) {
+      await page.emulateMedia({ colorScheme });
+      expect(await page.evaluate(() => (window as never as { axe: Axe }).axe.run().then(({ violations }) => violations.map(({ id }) => id)))).toEqual([]);
+    }
     await done();
     expect(await status()).toMatch(/^\d+ quads in [\d.]+ s\.$/);
     const one = await cells();
