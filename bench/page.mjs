@@ -59,6 +59,21 @@ async function longTasks(browser, address) {
 }
 const sum = (events) => events.reduce((all, { tdur = 0 }) => all + tdur, 0);
 
+/** Milliseconds of processor time that the workers and the main threads of all pages take for something. */
+async function processorTime(browser, page, action) {
+  await browser.startTracing(page, { categories: ['toplevel', '__metadata'] });
+  await action();
+  const { traceEvents } = JSON.parse((await browser.stopTracing()).toString());
+  const of = (thread) => {
+    const ids = new Set(traceEvents.filter(({ name, args }) => name === 'thread_name' && args.name.startsWith(thread)).map(({ pid, tid }) => `${pid} ${tid}`));
+    const tasks = traceEvents.filter((e) => e.ph === 'X' && ids.has(`${e.pid} ${e.tid}`)).sort((a, b) => a.ts - b.ts || b.dur - a.dur);
+    let [end, total] = [0, 0];
+    for (const { ts, dur, tdur = 0 } of tasks) if (ts >= end) [end, total] = [ts + dur, total + tdur]; // outermost ones
+    return Math.round(total / 1000);
+  };
+  return { worker: of('DedicatedWorker'), page: of('CrRendererMain') };
+}
+
 /** An element on an empty page, without controls. */
 async function figure(browser, address, state) {
   const context = await browser.newContext({ viewport: { width: 1366, height: 768 }, reducedMotion: 'reduce' });
@@ -68,7 +83,7 @@ async function figure(browser, address, state) {
   return { context, page };
 }
 
-/** Milliseconds from each of some strokes to its mesh, adapted by a method: least and median. */
+/** Milliseconds from each of some strokes to its mesh, adapted by a method: least and median by the clock; processor time of one. */
 async function strokes(browser, address, options, size) {
   const { context, page } = await figure(browser, address, 'mesh=grid:10,10:0,1,0,1&metric=h = 0.1');
   const result = await page.evaluate(
@@ -92,8 +107,16 @@ async function strokes(browser, address, options, size) {
     },
     [options, size, 9],
   );
+  const processor = await processorTime(browser, page, () =>
+    page.evaluate(async (size) => {
+      const element = document.querySelector('pillow-mesh');
+      const done = new Promise((resolve) => element.addEventListener('done', resolve, { once: true }));
+      element.setAttribute('sketch', `${size},1:0.2,0.25,0.5,0.5,0.8,0.6`);
+      await done;
+    }, size),
+  );
   await context.close();
-  return result;
+  return { ...result, processor };
 }
 
 /** Milliseconds of the page's main thread for each frame while the camera moves: what is drawn takes no part in it. */

@@ -74,7 +74,7 @@ export const faceFragmentShader = /* glsl */ `
     if (lit > 0.5) {
       float upwards = normalSeen.z < 0.0 ? -normalSeen.y : normalSeen.y;
       colour *= 0.66 + 0.34 * abs(normalSeen.z) + 0.06 * upwards;
-      colour *= 1.0 - (hollow > 0.0 ? 0.62 : 0.1) * hollow; // less sky in hollows, more light on edges
+      colour *= 1.0 - (hollow < 0.0 ? 0.1 : coloured > 0.5 ? 0.42 : 0.62) * hollow; // less sky in hollows, more light on edges
     }
 
     // Distance in pixels to the four sides; lines fade where cells become as small as the lines.
