@@ -1,5 +1,6 @@
-// How fast the page is, in Chromium: interactive after, long tasks while a run plays, stroke to adapted mesh, memory over
-// many runs. Usage: node scripts/site.mjs && node bench/page.mjs [RUNS]; prints JSON.
+// How fast the page is, in Chromium: interactive after, long tasks while a run plays, stroke to adapted mesh, processor time
+// of a frame of a large mesh, memory over many runs. Usage: node scripts/site.mjs && node bench/page.mjs [RUNS [PART]];
+// prints JSON. Parts: interactive playing stroke frames memory.
 import { createServer } from 'node:http';
 import { existsSync, readFileSync, statSync } from 'node:fs';
 import { extname, join } from 'node:path';
@@ -9,6 +10,7 @@ import { main, root } from '../scripts/run.mjs';
 const site = join(root, 'build', 'site');
 const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm' };
 const runs = Number(process.argv[2] ?? 20);
+const wanted = process.argv[3];
 
 function serve() {
   const server = createServer((request, response) => {
@@ -34,50 +36,147 @@ async function interactive(browser, address, throttle) {
   return Math.round(time);
 }
 
-/** The longest task, in milliseconds, while a run plays for some seconds. */
+/**
+ * Tasks of the page's main thread while a run plays for some seconds, in milliseconds: the longest by the clock, which
+ * counts what other programs and a graphics card made of software take as well, and the longest by processor time.
+ */
 async function longTasks(browser, address) {
   const context = await browser.newContext({ viewport: { width: 1366, height: 768 } });
   const page = await context.newPage();
   await page.goto(`${address}#case=circle2d&pace=16`);
   await page.waitForFunction(() => /\d/.test(document.querySelector('.facts dd')?.textContent ?? ''));
-  await page.evaluate(() => {
-    window.tasks = [];
-    new PerformanceObserver((list) => list.getEntries().forEach((entry) => window.tasks.push(entry.duration))).observe({ entryTypes: ['longtask'] });
-  });
+  await page.waitForTimeout(1000);
+  await browser.startTracing(page, { categories: ['toplevel', '__metadata'] });
   await page.keyboard.press(' ');
   await page.waitForTimeout(8000);
-  const tasks = await page.evaluate(() => window.tasks);
+  const { traceEvents } = JSON.parse((await browser.stopTracing()).toString());
   await context.close();
-  return { over50: tasks.length, longest: Math.round(Math.max(0, ...tasks)) };
+  const threads = traceEvents.filter(({ name, args }) => name === 'thread_name' && args.name === 'CrRendererMain');
+  const of = ({ pid, tid }) => traceEvents.filter((e) => e.ph === 'X' && e.pid === pid && e.tid === tid && /RunTask$/.test(e.name));
+  const busiest = threads.map(of).sort((a, b) => sum(b) - sum(a))[0];
+  const longest = (key) => Math.round(Math.max(...busiest.map((e) => (e[key] ?? 0) / 1000)));
+  return { tasks: busiest.length, over50: busiest.filter(({ tdur }) => tdur > 50_000).length, longestClock: longest('dur'), longestProcessor: longest('tdur') };
+}
+const sum = (events) => events.reduce((all, { tdur = 0 }) => all + tdur, 0);
+
+/** Milliseconds of processor time that the workers and the main threads of all pages take for something. */
+async function processorTime(browser, page, action) {
+  await browser.startTracing(page, { categories: ['toplevel', '__metadata'] });
+  await action();
+  const { traceEvents } = JSON.parse((await browser.stopTracing()).toString());
+  const of = (thread) => {
+    const ids = new Set(traceEvents.filter(({ name, args }) => name === 'thread_name' && args.name.startsWith(thread)).map(({ pid, tid }) => `${pid} ${tid}`));
+    const tasks = traceEvents.filter((e) => e.ph === 'X' && ids.has(`${e.pid} ${e.tid}`)).sort((a, b) => a.ts - b.ts || b.dur - a.dur);
+    let [end, total] = [0, 0];
+    for (const { ts, dur, tdur = 0 } of tasks) if (ts >= end) [end, total] = [ts + dur, total + tdur]; // outermost ones
+    return Math.round(total / 1000);
+  };
+  return { worker: of('DedicatedWorker'), page: of('CrRendererMain') };
 }
 
-/** Milliseconds from a metric to its adapted mesh, the median of several, and the heap before and after. */
-async function strokes(browser, address) {
+/** An element on an empty page, without controls. */
+async function figure(browser, address, state) {
   const context = await browser.newContext({ viewport: { width: 1366, height: 768 }, reducedMotion: 'reduce' });
   const page = await context.newPage();
-  await page.goto(`${address}embed.html#mesh=grid:10,10:0,1,0,1&metric=h = 0.1&controls=none`);
-  const result = await page.evaluate(async (runs) => {
-    const figure = document.querySelector('pillow-mesh');
-    await figure.ready;
-    const times = [];
-    let cells = 0;
-    const heap = () => performance.memory?.usedJSHeapSize ?? 0;
-    let first = 0;
-    for (let i = 0; i < runs; ++i) {
-      const start = performance.now();
-      const done = new Promise((resolve) => figure.addEventListener('done', resolve, { once: true }));
-      figure.setAttribute('event', 'last');
-      figure.setAttribute('sketch', `0.008,1:0.2,0.${2 + (i % 5)},0.5,0.5,0.8,0.6`);
-      const { detail } = await done;
-      times.push(performance.now() - start);
-      cells = detail.report.mesh.cells;
-      if (i === Math.min(4, runs - 1)) first = heap();
-    }
-    times.sort((a, b) => a - b);
-    return { cells, median: Math.round(times[times.length >> 1]), heapAfterFive: first, heapAtEnd: heap(), runs };
-  }, runs);
+  await page.goto(`${address}embed.html#${state}&controls=none`);
+  await page.evaluate(() => document.querySelector('pillow-mesh').ready);
+  return { context, page };
+}
+
+/** Milliseconds from each of some strokes to its mesh, adapted by a method: least and median by the clock; processor time of one. */
+async function strokes(browser, address, options, size) {
+  const { context, page } = await figure(browser, address, 'mesh=grid:10,10:0,1,0,1&metric=h = 0.1');
+  const result = await page.evaluate(
+    async ([options, size, runs]) => {
+      const element = document.querySelector('pillow-mesh');
+      for (const [name, value] of Object.entries(options)) element.setAttribute(name, value);
+      const times = [];
+      let report = null;
+      for (let i = 0; i <= runs; ++i) {
+        const start = performance.now();
+        const done = new Promise((resolve) => element.addEventListener('done', resolve, { once: true }));
+        element.setAttribute('event', 'last');
+        element.setAttribute('sketch', `${size},1:0.2,0.${2 + (i % 5)}${i % 10},0.5,0.5,0.8,0.6`);
+        const { detail } = await done;
+        if (i > 0) times.push(performance.now() - start); // the first waits for its module
+        report = detail.report;
+      }
+      times.sort((a, b) => a - b);
+      const { mesh, edge_length, shape, seconds } = report;
+      return { cells: mesh.cells, cv: edge_length.cv, eta: shape.mean, least: Math.round(times[0]), median: Math.round(times[times.length >> 1]), core: seconds };
+    },
+    [options, size, 9],
+  );
+  const processor = await processorTime(browser, page, () =>
+    page.evaluate(async (size) => {
+      const element = document.querySelector('pillow-mesh');
+      const done = new Promise((resolve) => element.addEventListener('done', resolve, { once: true }));
+      element.setAttribute('sketch', `${size},1:0.2,0.25,0.5,0.5,0.8,0.6`);
+      await done;
+    }, size),
+  );
   await context.close();
-  return result;
+  return { ...result, processor };
+}
+
+/** Milliseconds of the page's main thread for each frame while the camera moves: what is drawn takes no part in it. */
+async function frames(browser, address, mesh) {
+  const { context, page } = await figure(browser, address, `mesh=${mesh}&metric=h = 1&hide=ellipses`);
+  await page.locator('pillow-mesh .picture canvas').waitFor();
+  await page.locator('pillow-mesh').focus();
+  const session = await context.newCDPSession(page);
+  await session.send('Performance.enable');
+  const times = async () => Object.fromEntries((await session.send('Performance.getMetrics')).metrics.map(({ name, value }) => [name, 1000 * value]));
+  const turn = (count) =>
+    page.evaluate(async (count) => {
+      const keys = document.querySelector('pillow-mesh').shadowRoot;
+      for (let i = 0; i < count; ++i) {
+        const target = keys.querySelector('.transport button') ?? keys.firstElementChild;
+        target.dispatchEvent(new KeyboardEvent('keydown', { key: i % 8 < 4 ? 'ArrowLeft' : 'ArrowRight', ctrlKey: true, bubbles: true, composed: true }));
+        await new Promise((resolve) => requestAnimationFrame(resolve));
+      }
+    }, count);
+  await turn(5);
+  const before = await times();
+  await turn(40);
+  const after = await times();
+  await context.close();
+  const each = (name) => Number(((after[name] - before[name]) / 40).toFixed(2));
+  return { task: each('TaskDuration'), script: each('ScriptDuration'), whole: each('Timestamp') };
+}
+
+/** Bytes after collecting garbage, at the start and after each tenth of the runs. */
+async function memory(browser, address) {
+  const { context, page } = await figure(browser, address, 'case=circle2d&method=full&effort=fast');
+  const session = await context.newCDPSession(page);
+  const bytes = [];
+  for (let i = 0; i < runs; ++i) {
+    await page.evaluate(async (i) => {
+      const element = document.querySelector('pillow-mesh');
+      const done = new Promise((resolve) => element.addEventListener('done', resolve, { once: true }));
+      element.setAttribute('align', String((i % 10) / 10)); // another run each time
+      await new Promise((resolve) => setTimeout(resolve)); // attributes are taken together
+      await element.run();
+      await done;
+    }, i);
+    if (i % Math.ceil(runs / 10)) continue;
+    await session.send('HeapProfiler.collectGarbage');
+    const { usedSize, embedderHeapUsedSize = 0, backingStorageSize = 0 } = await session.send('Runtime.getHeapUsage');
+    const { processInfo } = await (await browser.newBrowserCDPSession()).send('SystemInfo.getProcessInfo');
+    const resident = processInfo.filter(({ type }) => type === 'renderer').map(({ id }) => residentOf(id));
+    bytes.push({ run: i + 1, heap: usedSize, embedder: embedderHeapUsedSize, buffers: backingStorageSize, renderers: Math.max(0, ...resident) });
+  }
+  await context.close();
+  return bytes;
+}
+
+/** Bytes of a process in memory, where the system tells (Linux): the worker with its modules is a part of it. */
+function residentOf(process) {
+  try {
+    return 1024 * Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${process}/status`, 'utf8'))?.[1] ?? 0);
+  } catch {
+    return 0;
+  }
 }
 
 await main(async () => {
@@ -88,12 +187,25 @@ await main(async () => {
     args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--enable-precise-memory-info'],
   });
   try {
-    const report = {
-      interactive: await interactive(browser, address, 1),
-      interactiveThrottled4: await interactive(browser, address, 4),
-      playing: await longTasks(browser, address),
-      stroke: await strokes(browser, address),
+    const full = { method: 'full', effort: 'fast' };
+    const parts = {
+      interactive: async () => ({
+        plain: [await interactive(browser, address, 1), await interactive(browser, address, 1)],
+        throttled4: await interactive(browser, address, 4),
+      }),
+      playing: () => longTasks(browser, address),
+      stroke: async () => ({
+        paper: await strokes(browser, address, { method: 'paper' }, 0.0058),
+        full: await strokes(browser, address, full, 0.005),
+      }),
+      frames: async () => ({
+        quads100000: await frames(browser, address, 'grid:400,250:0,1.6,0,1'),
+        hexes50653: await frames(browser, address, 'grid:37,37,37:0,1,0,1,0,1'),
+      }),
+      memory: () => memory(browser, address),
     };
+    const report = {};
+    for (const [name, measure] of Object.entries(parts)) if (!wanted || wanted === name) report[name] = await measure();
     console.log(JSON.stringify(report, null, 2));
   } finally {
     await browser.close();

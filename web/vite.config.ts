@@ -32,10 +32,21 @@ function contentSecurityPolicy(): Plugin {
   };
 }
 
+/** Shaders without their comments and indentation. */
+function shortShaders(): Plugin {
+  return {
+    name: 'short-shaders',
+    transform: (code, id) =>
+      id.endsWith('shaders.ts')
+        ? code.replace(/`[^`]*`/g, (shader) => shader.replace(/\/\/.*$/gm, '').replace(/\s*\n\s*/g, '\n').replace(/ ([=+*/<>?:,-]|&&|[-+*/]=) /g, '$1'))
+        : null,
+  };
+}
+
 export default defineConfig({
   root: web,
   base: './', // works from any folder of any static host
-  plugins: [lessonFrame(), contentSecurityPolicy()],
+  plugins: [lessonFrame(), contentSecurityPolicy(), shortShaders()],
   server: { fs: { allow: [dirname(web)] } },
   worker: { format: 'es' },
   build: {
@@ -52,7 +63,17 @@ export default defineConfig({
       // Other sites write this name into their pages.
       output: {
         entryFileNames: ({ name }) => (name === 'pillow-mesh' ? '[name].js' : 'assets/[name]-[hash].js'),
-        codeSplitting: { groups: [{ name: 'three', test: /node_modules[\\/]three/ }] },
+        // What is wanted together comes together: many small parts compress badly.
+        codeSplitting: {
+          includeDependenciesRecursively: false,
+          groups: [
+            { name: 'three', test: /node_modules[\\/]three/ },
+            { name: 'drawing', test: /src[\\/]viewport[\\/](?!palette)|stage[\\/]pointing|inside[\\/](anatomy|facets|irregular_edges|chords|relief)/ },
+            { name: 'sketching', test: /src[\\/]sketch[\\/]|app[\\/](sketching|following)|style[\\/](sketch|following)/ },
+            { name: 'extras', test: /src[\\/]export[\\/]|app[\\/](saving|compare\.|brightness|camera_picture)|panels[\\/](help|embed_dialog|look_inside\.)/ },
+            { name: 'common', test: /wasm[\\/]events|inside[\\/](look_inside|neighbours)|state[\\/]|ui[\\/]dom|replay[\\/]caption/ },
+          ],
+        },
       },
     },
   },

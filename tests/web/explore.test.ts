@@ -3,7 +3,6 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, expect, test } from 'vitest';
 import { snippetOf } from '../../web/src/panels/embed_dialog.ts';
-import { decodeSketch, encodeSketch, formulaOfSketch, simplified } from '../../web/src/sketch/sketch.ts';
 import { complaints, eventually, page, part, pictureNow, serving, visit } from './browsing.ts';
 import { screenshots, serveSite } from './site.ts';
 
@@ -116,52 +115,6 @@ describe('looking', () => {
   });
 });
 
-describe('sketching', () => {
-  test('a stroke makes cells fine along it, at once; a link and undo keep it', async () => {
-    await visit('#mesh=grid:6,6:0,1,0,1&metric=h %3D 0.2&hide=ellipses');
-    await page.getByRole('button', { name: 'Sketch it instead' }).click();
-    await page.locator('.board').waitFor();
-    await page.getByRole('slider', { name: 'Size' }).fill('0.03');
-    const { x, y, width } = await middle('.picture canvas');
-    const draw = async (from: number, to: number, lift: number): Promise<void> => {
-      await page.mouse.move(x + from, y + lift);
-      await page.mouse.down();
-      for (let i = 1; i <= 8; ++i) await page.mouse.move(x + from + ((to - from) * i) / 8, y + lift + 30 * Math.sin(i / 2));
-      await page.mouse.up();
-    };
-    await draw(-0.2 * width, 0.2 * width, -40);
-    await ran();
-    await expect.poll(() => part('sketch'), eventually).toMatch(/^0\.03,1:/);
-    const cells = async (): Promise<number> => Number((await page.locator('.facts dd').first().innerText()).replace(/,/g, ''));
-    await expect.poll(cells, eventually).toBeGreaterThan(120);
-    const one = await cells();
-    await draw(-0.1 * width, 0.2 * width, 100);
-    await expect.poll(() => part('sketch')?.split(';').length, eventually).toBe(2);
-    await ran();
-    await expect.poll(async () => (await cells()) > 120 && (await cells()) !== one, eventually).toBe(true);
-    await page.screenshot({ path: join(screenshots, 'sketch.png') });
-    const { hash } = new URL(page.url());
-    const shown = await cells();
-    await page.context().close();
-    await visit(hash);
-    await expect.poll(cells, eventually).toBe(shown);
-    expect(complaints).toEqual([]);
-  });
-
-  test('is written and read back as it was, and simplified within its tolerance', () => {
-    const strokes = [{ size: 0.02, stretch: 4, points: [[0, 0], [0.5, -0.25]] as [number, number][] }];
-    expect(decodeSketch(encodeSketch(strokes))).toEqual(strokes);
-    expect(decodeSketch('nonsense;0.1,1:1;;x,y:1,2')).toEqual([]);
-    expect(formulaOfSketch([], 0.3)).toBe('h = 0.3');
-    expect(formulaOfSketch([{ size: 0.1, stretch: 1, points: [[1, 2]] }], 2)).toBe(
-      'd1 = sqrt((x - 1)^2 + (y - 2)^2);\nh = min(2, 0.1 + 0.25*d1)',
-    );
-    const line = Array.from({ length: 50 }, (_, i) => [i, i % 2 ? 0.05 : 0] as [number, number]);
-    expect(simplified(line, 0.1)).toEqual([[0, 0], [49, 0.05]]);
-    expect(simplified([[0, 0], [1, 1], [2, 0]], 0.1).length).toBe(3);
-  });
-});
-
 describe('a picture', () => {
   test('that is dropped becomes the metric: cells are fine along its edges', async () => {
     await visit('#mesh=grid:8,8:0,1,0,1&metric=h %3D 0.3&hide=ellipses');
@@ -179,12 +132,32 @@ describe('a picture', () => {
     const ideal = page.locator('.facts > div', { hasText: 'Ideal' }).locator('dd');
     await expect.poll(async () => Number((await ideal.innerText()).replace(/,/g, '')), eventually).toBeGreaterThan(1500);
     expect(Number((await ideal.innerText()).replace(/,/g, ''))).toBeLessThan(2600);
-    await page.getByRole('button', { name: 'Run', exact: true }).click();
-    await ran();
-    await page.locator('h1').click();
-    await page.keyboard.press('End');
-    await page.waitForTimeout(800);
+    await ran(); // the mesh follows by itself
+    await page.getByRole('button', { name: 'Stop' }).click();
+    await page.getByRole('button', { name: 'Run', exact: true }).waitFor(eventually);
+    expect(Number((await page.locator('.facts dd').first().innerText()).replace(/,/g, ''))).toBeGreaterThan(1000);
     await page.screenshot({ path: join(screenshots, 'picture-metric.png') });
+    expect(complaints).toEqual([]);
+  });
+});
+
+describe('the camera', () => {
+  test('is asked for on a click; its picture becomes the metric, and a refusal is told', async () => {
+    await visit('#mesh=grid:8,8:0,1,0,1&metric=h %3D 0.3&hide=ellipses');
+    await page.locator('summary', { hasText: 'Another initial mesh' }).click();
+    await page.getByRole('button', { name: 'Take a picture' }).click();
+    await expect.poll(() => page.locator('.message').innerText(), eventually).toMatch(/^The camera was refused. Allow it/);
+    await page.context().grantPermissions(['camera']);
+    await page.getByRole('button', { name: 'Take a picture' }).click();
+    await expect.poll(() => page.locator('video').evaluate((video) => (video as HTMLVideoElement).videoWidth), eventually).toBeGreaterThan(0);
+    await page.screenshot({ path: join(screenshots, 'camera.png') });
+    await page.getByRole('button', { name: 'Take the picture' }).click();
+    await page.locator('.message', { hasText: 'made from the camera' }).waitFor(eventually);
+    const ideal = page.locator('.facts > div', { hasText: 'Ideal' }).locator('dd');
+    await expect.poll(async () => Number((await ideal.innerText()).replace(/,/g, '')), eventually).toBeGreaterThan(1500);
+    await page.locator('.following').waitFor(); // the mesh follows by itself
+    await page.getByRole('button', { name: 'Stop' }).click();
+    await expect.poll(() => page.locator('.following').isHidden(), eventually).toBe(true);
     expect(complaints).toEqual([]);
   });
 });

@@ -1,6 +1,11 @@
 // Looking into hexahedral meshes in a real browser, control by control; and the paper's figures.
 import { join } from 'node:path';
 import { describe, expect, test } from 'vitest';
+import { drawing, solidFacets } from '../../web/src/inside/facets.ts';
+import { facetNeighbours } from '../../web/src/inside/neighbours.ts';
+import { outlineOf, reliefOf } from '../../web/src/inside/relief.ts';
+import { ReplayMesh } from '../../web/src/replay/replay_mesh.ts';
+import { factor } from '../../web/src/viewport/ellipsoids.ts';
 import { complaints, eventually, page, part, pictureNow, visit } from './browsing.ts';
 import { screenshots } from './site.ts';
 
@@ -8,6 +13,43 @@ const drawn = async (): Promise<string> => (await page.locator('.drawn').textCon
 const kept = async (): Promise<number> => Number((await drawn()).replace(/,/g, '').split(' ')[0]);
 const slider = (name: string) => page.locator('.inside').getByRole('slider', { name, exact: true });
 const open = () => page.getByRole('button', { name: 'Look inside' }).click();
+
+describe('seeing in space', () => {
+  test('an ellipsoid is the image of the unit ball under a matrix that takes its metric to a multiple of unity', () => {
+    const [m11, m12, m22, m13, m23, m33] = [4, 1, 9, -0.5, 2, 3];
+    const axes = factor([m11, m12, m22, m13, m23, m33]);
+    const times = ([x, y, z]: number[]): number[] => [m11 * x + m12 * y + m13 * z, m12 * x + m22 * y + m23 * z, m13 * x + m23 * y + m33 * z];
+    axes.forEach((a, i) =>
+      axes.forEach((b, j) => expect(times(a).reduce((sum, x, d) => sum + x * b[d], 0)).toBeCloseTo(i === j ? 0.25 : 0, 12)),
+    );
+  });
+
+  test('corners of a cube stand out, the bottom of a pit is hollow, and outlines have the normals of both sides', () => {
+    // 3 x 3 x 2 unit cubes; without the middle one on top there is a pit.
+    const points: number[] = [];
+    for (let k = 0; k <= 2; ++k) for (let j = 0; j <= 3; ++j) for (let i = 0; i <= 3; ++i) points.push(i, j, k);
+    const cells: number[] = [];
+    for (let c = 0; c < 18; ++c)
+      for (let v = 0; v < 8; ++v)
+        cells.push((c % 3) + (v & 1) + 4 * ((Math.floor(c / 3) % 3) + ((v >> 1) & 1)) + 16 * (Math.floor(c / 9) + (v >> 2)));
+    const mesh = new ReplayMesh({ dim: 3, points: Float64Array.from(points), cells: Int32Array.from(cells) });
+    const pit = solidFacets(mesh, facetNeighbours(mesh), Uint8Array.from({ length: 18 }, (_, c) => (c === 13 ? drawing.hidden : drawing.solid)));
+    const relief = reliefOf(mesh, pit);
+    const at = (vertex: number): number => relief.hollow[pit.vertices.indexOf(vertex)];
+    expect(at(0)).toBeLessThan(-0.5); // a corner of the block
+    expect(at(16 + 5)).toBeGreaterThan(0.3); // of the bottom of the pit
+    expect(at(1)).toBeLessThanOrEqual(0);
+    for (let f = 0; f < pit.cells.length; ++f) {
+      const cell = pit.cells[f];
+      const middle = [0, 1, 2].map((d) => cells.slice(8 * cell, 8 * cell + 8).reduce((sum, v) => sum + points[3 * v + d] / 8, 0));
+      const away = [0, 1, 2].reduce((sum, d) => sum + (points[3 * pit.vertices[4 * f] + d] - middle[d]) * relief.normals[3 * f + d], 0);
+      expect(away).toBeGreaterThan(0); // normals point out of their cell
+    }
+    const { edges, normals } = outlineOf(mesh.vertexCount, pit, relief);
+    expect(edges.length / 2).toBe(8 * 3 + 4 * 2 + 12); // of the block: 8 sides of 3 edges, 4 of 2; of the pit: rim, walls, bottom
+    expect(normals.length).toBe(3 * edges.length);
+  });
+});
 
 describe('looking inside', () => {
   test('is offered for hexes alone', async () => {
@@ -117,7 +159,7 @@ describe('looking inside', () => {
   });
 
   test('cells become glass around a layer, always or never', async () => {
-    await visit('#case=linear3d&event=2');
+    await visit('#case=linear3d&event=2&hide=ellipses');
     await expect.poll(() => page.locator('.badge').innerText(), eventually).toBe('Layer');
     await open();
     const auto = await pictureNow();
@@ -132,6 +174,54 @@ describe('looking inside', () => {
     const glass = await pictureNow();
     await page.getByLabel('Auto', { exact: true }).check();
     expect((await pictureNow()).equals(glass)).toBe(false);
+  });
+
+  test('cells are hidden by hand, or left alone with their neighbours; undo and a link know it', async () => {
+    await visit('#case=sphere3d');
+    await open();
+    await page.getByRole('button', { name: 'Hide: Hide the framed cell' }).click();
+    await expect.poll(() => page.locator('.inside').innerText()).toContain('First click a cell');
+    const box = (await page.locator('.picture canvas').boundingBox())!;
+    const click = (x: number): Promise<void> => page.mouse.click(box.x + x * box.width, box.y + 0.35 * box.height); // above the play button
+    await click(0.45);
+    await page.getByRole('button', { name: 'Hide: Hide the framed cell' }).click();
+    await expect.poll(drawn).toBe('124 of 125 hexes');
+    await expect.poll(() => part('without')).toMatch(/^\d+$/); // settled: what undo leads back to
+    await click(0.45); // the one behind it
+    await page.keyboard.press('Delete');
+    await expect.poll(drawn).toBe('123 of 125 hexes');
+    await expect.poll(() => part('without')).toMatch(/^\d+,\d+$/);
+    await page.screenshot({ path: join(screenshots, 'dug.png') });
+    await page.getByRole('button', { name: 'Undo' }).click();
+    await expect.poll(drawn).toBe('124 of 125 hexes');
+    await page.getByRole('button', { name: 'Back: Bring back' }).click();
+    await expect.poll(drawn).toBe('125 of 125 hexes');
+    await click(0.5);
+    await page.keyboard.press('n');
+    await expect.poll(kept).toBeLessThan(28); // at a corner 8, on an edge 12, on a side 18, inside 27
+    expect([8, 12, 18]).toContain(await kept());
+    await expect.poll(() => part('around')).toMatch(/^\d+$/);
+    await expect.poll(() => part('view')).not.toBe(null); // flown to
+    await page.screenshot({ path: join(screenshots, 'around.png') });
+    const [shown, { hash }] = [await kept(), new URL(page.url())];
+    await visit(hash);
+    await expect.poll(kept).toBe(shown);
+    expect(complaints).toEqual([]);
+  });
+
+  test('metric ellipsoids stand in the initial mesh, until something else is looked at', async () => {
+    await visit('#case=linear3d');
+    await page.locator('.start').evaluate((button) => button.remove());
+    await expect.poll(() => page.getByRole('button', { name: 'Metric' }).isVisible()).toBe(true);
+    await page.waitForTimeout(600);
+    const with_ = await pictureNow();
+    await page.screenshot({ path: join(screenshots, 'ellipsoids.png') });
+    await page.getByRole('button', { name: 'Metric' }).click();
+    const without = await pictureNow();
+    expect(without.equals(with_)).toBe(false);
+    await page.getByRole('button', { name: 'Metric' }).click();
+    expect((await pictureNow()).equals(with_)).toBe(true);
+    expect(complaints).toEqual([]);
   });
 
   test('a link restores all of it, and one button undoes it', async () => {

@@ -3,6 +3,8 @@ import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { describe, expect, test } from 'vitest';
+import { errorOf, solve, squares } from '../../web/src/lesson/q1.ts';
+import { exact, needed, source } from '../../web/src/lesson/shock.ts';
 import { formulaOf } from '../../web/src/lesson/tag_editor.ts';
 import type { PillowMeshElement } from '../../web/src/element/pillow_mesh.ts';
 import { complaints, eventually, newPage, page, serving } from './browsing.ts';
@@ -112,6 +114,39 @@ describe('buttons beside a figure', () => {
     await page.getByRole('button', { name: 'cut', exact: true }).click();
     await page.waitForTimeout(400);
     expect((await page.locator('#f8').screenshot()).equals(whole)).toBe(false);
+  });
+});
+
+describe('the solver loop', () => {
+  test('solves, adapts to what it has found, and falls below equal squares', async () => {
+    await lesson('solver-loop.html');
+    const row = (i: number): Promise<string[]> => page.locator('.solver-loop tbody tr').nth(i).locator('td').allInnerTexts();
+    await expect.poll(() => page.locator('rect.uniform').count(), eventually).toBe(4);
+    expect(await row(0)).toEqual(['start', '256', '0.15', '']);
+    await page.locator('#f9').scrollIntoViewIfNeeded();
+    for (const turn of [1, 2]) {
+      await page.getByRole('button', { name: 'One turn' }).click();
+      await expect.poll(() => page.locator('.solver-loop tbody tr').count(), { timeout: 100_000 }).toBe(turn + 1);
+    }
+    const [, quads, error, needed] = await row(2);
+    expect(Number(quads)).toBe(await cells('f9'));
+    expect(Number(quads)).toBeLessThan(400);
+    expect(Number(error)).toBeLessThan(0.02);
+    expect(Number(needed.replace(/,/g, ''))).toBeGreaterThan(2000);
+    await page.screenshot({ path: join(screenshots, 'lesson-loop.png') });
+    await page.getByRole('button', { name: 'From the start' }).click();
+    await expect.poll(() => cells('f9')).toBe(256);
+    expect(complaints).toEqual([]);
+  });
+
+  test('has a solver that is exact for linear functions, and the errors that the native example has', () => {
+    const linear = (x: number, y: number): number => 1 + 2 * x - 3 * y;
+    const crooked = squares(5);
+    crooked.points = crooked.points.map((x, i) => (crooked.boundary[i >> 1] ? x : x + 0.05 * Math.sin(7 * i)));
+    expect(errorOf(crooked, solve(crooked, () => 0, linear), linear)).toBeLessThan(1e-9);
+    for (const [n, error] of [[16, 0.151], [32, 0.0364]] as const) // docs/convergence.md
+      expect(errorOf(squares(n), solve(squares(n), source, exact), exact) / error).toBeCloseTo(1, 2);
+    expect(needed([{ cells: 100, error: 0.04 }, { cells: 400, error: 0.01 }], 0.0025)).toBeCloseTo(1600, 6);
   });
 });
 

@@ -93,6 +93,7 @@ export function openBrowser(): Promise<Browser> {
       '--disable-sync',
       '--disable-quic',
       '--no-first-run',
+      '--use-fake-device-for-media-stream',
     ],
   });
 }

@@ -11,19 +11,20 @@ import { makeTransport } from '../panels/transport.ts';
 import { Stage } from '../stage/stage.ts';
 import { legendOf, summaryOf } from '../stage/words.ts';
 import { decodeSettings, encodeSettings, sameComputation } from '../state/permalink.ts';
-import { type Mark, type MeshChoice, type Pace, type Settings } from '../state/settings.ts';
-import { debounce, h, showOnce } from '../ui/dom.ts';
+import { lastEvent, type Mark, type MeshChoice, type Pace, type Settings } from '../state/settings.ts';
+import { debounce, h } from '../ui/dom.ts';
 import { icon } from '../ui/icons.ts';
 import { Comparing } from './comparing.ts';
+import { showEmbed, showHelp } from './dialogs.ts';
 import { acceptDrops } from './drop.ts';
 import { toggleFullScreen } from './full_screen.ts';
 import { History } from './history.ts';
 import { listenToKeys } from './keyboard.ts';
 import { keyActions } from './keys.ts';
-import { isMetric, takeAsMetric } from './given_metric.ts';
+import { isMetric } from './given_metric.ts';
 import { firstVisit } from './first_visit.ts';
 import { messageOf } from './mishaps.ts';
-import type { Sketching } from './sketching.ts';
+import { Live } from './live.ts';
 import { followTheme, toggleTheme } from './theme.ts';
 
 export class App {
@@ -40,6 +41,7 @@ export class App {
     done: () => undefined,
     stepped: () => undefined,
     tell: (error) => this.tell(error),
+    follow: () => this.live.on && (void this.live.follow(), true),
   });
   private readonly history = new History((link) => void this.follow(decodeSettings(link)));
   private readonly comparing = new Comparing(
@@ -47,8 +49,16 @@ export class App {
     () => document.querySelector('.stage'),
     (error) => this.tell(error),
   );
-  private sketching: Sketching | null = null;
   private readonly messages = makeMessages();
+  private readonly live = new Live(this.stage, {
+    messages: this.messages,
+    sketchPlace: () => this.setup.sketchPlace,
+    refresh: () => this.refresh(),
+    asked: () => this.writeLink(),
+    setStatus: (sentence) => this.setup.setStatus(sentence),
+    refused: (error) => this.refused(error),
+    tell: (error) => this.tell(error),
+  });
   private readonly indicators = makeIndicators({
     pick: (measure, range) => this.pick(measure, range),
     worst: () => this.flyToWorst(),
@@ -56,16 +66,22 @@ export class App {
   private readonly pointed = h('output', { class: 'pointed', hidden: true });
   private readonly header = makeHeader({
     copyLink: () => void this.copyLink(),
-    embed: () => void this.showEmbed(),
+    embed: () => void showEmbed(this.link(), this.stage.caption, this.messages),
     undo: () => this.history.undo(),
     redo: () => this.history.redo(),
     save: (format) => void this.save(format),
     toggleTheme,
-    help: () => void this.showHelp(),
+    help: () => void showHelp(() => this.version),
   });
   private readonly inside = makeLookInside({
     change: (inside) => this.change({ inside }),
     viewDirection: () => this.stage.picture.direction,
+    flyTo: (cell) => this.stage.picture.pin(cell),
+    takePicked: () => {
+      const { picked } = this.stage.picture;
+      this.stage.picture.unpick();
+      return picked;
+    },
   });
   private readonly tools = makePictureTools({
     inside: this.inside.toggle,
@@ -87,15 +103,16 @@ export class App {
     chooseFigure: ({ link }) => void this.follow(decodeSettings(link)),
     chooseGrid: (spec) => spec && void this.open({ kind: 'grid', spec }, this.setup.formula.text()),
     chooseFile: (file) => void this.openFile(file),
+    takePicture: () => void this.live.takePicture(),
     changeFormula: debounce(300, (text: string) => void this.applyFormula(text)),
     changeOption: (name, value) => {
       this.settings.options[name] = value;
-      void this.stage.run.forget();
+      void (this.live.on ? this.live.follow() : this.stage.run.forget());
     },
-    sketch: () => void this.sketch(),
+    sketch: () => void this.live.sketch(),
     compareWith: (compare) => this.change({ compare }),
-    run: () => void this.stage.run.start('play'),
-    stop: () => void this.stage.run.stop(),
+    run: () => void (this.live.on ? this.live.follow() : this.stage.run.start('play')),
+    stop: () => void (this.live.working ? this.live.stop() : this.stage.run.stop()),
   });
   private readonly start_ = h(
     'button',
@@ -163,7 +180,7 @@ export class App {
         toggleMark: (mark) => this.toggleMark(mark),
         setPace: (pace) => this.setPace(pace),
         openFile: () => this.setup.openFileDialog(),
-        help: () => void this.showHelp(),
+        help: () => void showHelp(() => this.version),
         history: this.history,
         worst: () => this.flyToWorst(),
         inside: this.inside,
@@ -215,11 +232,17 @@ export class App {
     this.messages.clear();
     const before = this.settings;
     this.settings = next;
-    if (!sameComputation(before, next)) return this.applySettings();
+    const live = this.live.on;
+    if (!sameComputation(before, next)) {
+      const ask = live && next.event === lastEvent && JSON.stringify(before.mesh) === JSON.stringify(next.mesh);
+      const formula = next.formula || stage.subject.ownFormula(next.mesh);
+      if (ask && (next.sketch || formula)) return this.live.follow(next.sketch ? { sketch: next.sketch } : { formula });
+      return this.applySettings();
+    }
     stage.player.pace = next.pace;
     stage.picture.setLook(next);
     stage.picture.pose = next.camera;
-    await stage.seek(next.event ?? 0);
+    if (!live || next.event !== lastEvent || !stage.player.atEnd) await stage.seek(next.event ?? 0);
     this.refresh();
   }
 
@@ -228,19 +251,21 @@ export class App {
     if (!(await this.stage.open(choice, formula))) return false;
     this.messages.clear();
     this.settings.camera = null;
+    if (this.live.on) void this.live.follow();
     const { inside } = this.settings; // layers and qualities are those of another mesh
-    this.change({ inside: { ...inside, peel: 0, quality: { ...inside.quality, low: 0, high: 1 } } });
+    this.change({ inside: { ...inside, peel: 0, quality: { ...inside.quality, low: 0, high: 1 }, without: [], around: [] } });
     return true;
   }
 
   private openFile(file: File): Promise<void> {
-    if (isMetric(file)) return takeAsMetric(this.stage, file, this.messages).catch((error: unknown) => this.tell(error));
+    if (isMetric(file)) return this.live.takeMetric(file);
     return this.stage.subject.openFile(file, (choice) => this.open(choice, ''));
   }
 
   private opened(formula: string): void {
     const { mesh } = this.settings;
-    this.setup.formula.setText(formula);
+    // What has been typed meanwhile is asked next.
+    if (!this.live.on || !this.setup.formula.element.contains(document.activeElement)) this.setup.formula.setText(formula);
     this.setup.formula.setError(null);
     const own = mesh.kind === 'case' && formula === this.stage.subject.ownFormula(mesh);
     this.indicators.setCase(own ? mesh.name : null);
@@ -248,18 +273,17 @@ export class App {
   }
 
   private async applyFormula(text: string): Promise<void> {
+    if (this.live.on) return this.live.follow({ formula: text });
     try {
       await this.stage.setFormula(text, () => text === this.setup.formula.text()); // else: typed on meanwhile
     } catch (error) {
-      if (error instanceof CoreError) this.setup.formula.setError(error.message);
-      else this.tell(error);
+      this.refused(error);
     }
   }
 
-  private async sketch(): Promise<void> {
-    const { Sketching } = await import('./sketching.ts');
-    this.sketching ??= new Sketching(this.stage, this.setup.sketchPlace, (error) => this.tell(error));
-    await this.sketching.toggle();
+  private refused(error: unknown): void {
+    if (error instanceof CoreError) this.setup.formula.setError(error.message);
+    else this.tell(error);
   }
 
   private setPace(pace: Pace): void {
@@ -319,17 +343,17 @@ export class App {
       mesh: settings.mesh,
       options: settings.options,
       compare: settings.compare,
-      running: workshop.running,
+      running: workshop.running || this.live.working,
       summary: subject.empty ? '' : summaryOf(settings.mesh, subject.initial),
     });
     this.tools.update({ marks: settings.marks, colouring: settings.colouring, dim });
     this.inside.update(settings.inside, dim);
     this.indicators.setPicked(settings.inside.quality.measure, pickedRange(settings.inside.quality));
     this.tools.setLegend(legendOf(settings.colouring, picture.colours, player.iterations));
-    this.start_.hidden = run.hasRun || subject.empty;
+    this.start_.hidden = run.hasRun || subject.empty || looksInside(settings.inside);
     this.indicators.setIrregular(player.atEnd && player.complete ? run.irregular : null);
     this.comparing.update(settings);
-    this.sketching?.update();
+    this.live.update();
     this.rewriteLink();
   }
 
@@ -345,20 +369,6 @@ export class App {
     this.history.record(link);
     this.header.update(this.history);
     history.replaceState(null, '', `#${link}`);
-  }
-
-  private async showHelp(): Promise<void> {
-    const { makeHelp } = await import('../panels/help.ts');
-    showOnce(makeHelp(() => this.version)).showModal();
-  }
-
-  private async showEmbed(): Promise<void> {
-    const { makeEmbedDialog } = await import('../panels/embed_dialog.ts');
-    const dialog = makeEmbedDialog((done) =>
-      this.messages.show({ kind: 'note', text: done ? 'The code is copied.' : 'The code is selected; copy it from there.' }),
-    );
-    showOnce(dialog.element);
-    dialog.show(this.link(), this.stage.caption);
   }
 
   private async copyLink(): Promise<void> {

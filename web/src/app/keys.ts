@@ -60,6 +60,8 @@ export function keyActions(host: KeyHost): KeyActions {
     x: cut(0),
     y: cut(1),
     z: cut(2),
+    Delete: hexes(() => inside.isolate('without')),
+    n: hexes(() => inside.isolate('around')),
     e: hexes(() => {
       const now = host.settings().inside;
       inside.setOpen(true);

@@ -1,6 +1,8 @@
 // The sketch board: there when the visitor asks for it, on meshes of quadrilaterals.
 import type { Board } from '../sketch/board.ts';
+import type { Stroke } from '../sketch/sketch.ts';
 import type { Stage } from '../stage/stage.ts';
+import { goLive, type Question } from './following.ts';
 
 export class Sketching {
   private board: Board | null = null;
@@ -9,6 +11,7 @@ export class Sketching {
     private readonly stage: Stage,
     /** Where the panel goes. */
     private readonly place: HTMLElement,
+    private readonly follow: (question: Question) => void,
     private readonly tell: (error: unknown) => void,
   ) {}
 
@@ -20,16 +23,24 @@ export class Sketching {
       import('../sketch/sketch.ts'),
     ]);
     const { stage } = this;
+    const draw = (strokes: readonly Stroke[], painting: boolean): void => {
+      if (stage.settings().options.method !== 'full') goLive(stage);
+      this.follow({ sketch: encodeSketch(strokes), painting });
+    };
     const board = (this.board = makeBoard({
       picture: stage.picture,
       extent: () => stage.extent,
       strokes: () => decodeSketch(stage.settings().sketch),
-      change: (strokes) => void this.draw(encodeSketch(strokes)),
+      change: (strokes) => (strokes.length > 0 ? draw(strokes, false) : void this.clear()),
+      paint: (strokes) => draw(strokes, true),
       close: () => this.close(),
     }));
-    this.place.append(board.panel);
+    const narrow = matchMedia('(max-width: 759px)').matches; // one column: the panel belongs beside the picture
+    if (narrow) stage.picture.host.closest('.frame')?.after(board.panel);
+    else this.place.append(board.panel);
     stage.picture.host.after(board.surface);
     stage.picture.clearEllipses();
+    (narrow ? stage.picture.host : board.panel).scrollIntoView({ block: 'center' });
     board.update();
   }
 
@@ -39,13 +50,12 @@ export class Sketching {
     this.board?.update();
   }
 
-  private async draw(sketch: string): Promise<void> {
+  private async clear(): Promise<void> {
     const { stage } = this;
     try {
       await stage.run.forget();
-      await stage.drawSketch(sketch);
+      await stage.drawSketch('');
       this.board?.update();
-      if (sketch) await stage.seek(Number.MAX_SAFE_INTEGER); // adapted at once
     } catch (error) {
       this.tell(error);
     }

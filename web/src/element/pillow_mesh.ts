@@ -1,5 +1,6 @@
 // <pillow-mesh>: a mesh that adapts, anywhere in a page. Describes itself by attributes (attributes.ts), computes in the
 // workers that all elements of the page share, loads when it comes near the window.
+import type { MetricRequest } from '../../../wasm/metrics.ts';
 import type { RunResult } from '../../../wasm/protocol.ts';
 import type { MeshArrays } from '../../../wasm/session.ts';
 import controlsSheet from '../../style/controls.css?inline';
@@ -118,6 +119,13 @@ export class PillowMeshElement extends Base {
     const stage = this.activate();
     await this.applying;
     return stage.run.start({ show: lastEvent });
+  }
+
+  /** A metric made from a solution, a picture, dabs, walls, ... for the mesh that is open (wasm/metrics.ts). */
+  async setMetric(request: MetricRequest): Promise<void> {
+    const stage = this.activate();
+    await this.applying;
+    await stage.setMadeMetric(request);
   }
 
   /** Opens a mesh file that did not come from an address. */

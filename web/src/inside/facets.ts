@@ -11,7 +11,12 @@ export interface Facets {
   cells: Int32Array;
   /** 1 where the mesh goes on behind the facet. */
   inner: Uint8Array;
+  /** 1 or -1: the side of the cross product of the diagonals (0 to 3, 1 to 2) that is outside of the cell. */
+  outward: Int8Array;
 }
+
+/** By facet = 2 axis + side: the corners of facets across y turn the other way around. */
+const outwards = [-1, 1, 1, -1, -1, 1];
 
 /** The facets of the cells for which `wanted` of the cell's drawing and its neighbour's holds. Cost: linear. */
 function collect(
@@ -33,12 +38,13 @@ function collect(
     const beyond = neighbour === outside ? drawing.hidden : draw[neighbour];
     if (table[states * own + beyond]) chosen[count++] = half;
   }
-  const facets = { vertices: new Int32Array(4 * count), cells: new Int32Array(count), inner: new Uint8Array(count) };
+  const facets = { vertices: new Int32Array(4 * count), cells: new Int32Array(count), inner: new Uint8Array(count), outward: new Int8Array(count) };
   for (let i = 0; i < count; ++i) {
     const cell = (chosen[i] / 6) | 0;
     const corners = hexFacets[chosen[i] - 6 * cell];
     for (let k = 0; k < 4; ++k) facets.vertices[4 * i + k] = cells[8 * cell + corners[k]];
     facets.cells[i] = cell;
+    facets.outward[i] = outwards[chosen[i] - 6 * cell];
     facets.inner[i] = neighbours[chosen[i]] === outside ? 0 : 1;
   }
   return facets;

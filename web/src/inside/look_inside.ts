@@ -32,6 +32,10 @@ export interface Inside {
   quality: { measure: QualityMeasure; low: number; high: number };
   body: Body;
   irregular: boolean;
+  /** Cells taken away by hand. */
+  without: readonly number[];
+  /** Only these cells and those that share a vertex with them are left; empty: all. */
+  around: readonly number[];
 }
 
 export function defaultInside(): Inside {
@@ -41,13 +45,17 @@ export function defaultInside(): Inside {
     quality: { measure: 'eta', low: 0, high: 1 },
     body: 'auto',
     irregular: false,
+    without: [],
+    around: [],
   };
 }
 
+export const isFiltered = ({ low, high }: Inside['quality']): boolean => low > 0 || high < 1;
+
 /** Whether cells are hidden or drawn in another way than at first. */
-export function looksInside({ cut, peel, quality, body, irregular }: Inside): boolean {
+export function looksInside({ cut, peel, quality, body, irregular, without, around }: Inside): boolean {
   return (
-    cut.kind !== 'off' || peel > 0 || quality.low > 0 || quality.high < 1 || body !== 'auto' || irregular
+    cut.kind !== 'off' || peel > 0 || isFiltered(quality) || body !== 'auto' || irregular || without.length + around.length > 0
   );
 }
 
@@ -66,8 +74,6 @@ export function anglesOf([x, y, z]: readonly number[]): { turn: number; tilt: nu
   return { turn: turn === -180 ? 180 : turn, tilt };
 }
 
-export const isFiltered = ({ low, high }: Inside['quality']): boolean => low > 0 || high < 1;
-
 /** Whether a value passes. At its end a bound holds nothing back: cells worse than 0 and better than 1 exist. */
 export function passes({ low, high }: Inside['quality'], value: number): boolean {
   return !((low > 0 && value < low) || (high < 1 && value > high));
@@ -76,7 +82,7 @@ export function passes({ low, high }: Inside['quality'], value: number): boolean
 /** 1 for each cell that is left. `depths` as of cellDepths; `faded`: cells that are filtered out. */
 export function keptCells(
   mesh: ReplayMesh,
-  { cut, peel }: Inside,
+  { cut, peel, without, around }: Inside,
   depths: () => Int32Array,
   faded: (cell: number) => boolean,
 ): Uint8Array {
@@ -99,6 +105,12 @@ export function keptCells(
     for (let c = 0; c < cellCount; ++c) if (depth[c] < peel) kept[c] = 0;
   }
   for (let c = 0; c < cellCount; ++c) if (kept[c] && faded(c)) kept[c] = 0;
+  const middle = around.filter((c) => c < cellCount && cells[8 * c] >= 0); // in another moment it may not be there
+  if (middle.length > 0) {
+    const near = new Set(middle.flatMap((c) => Array.from(cells.subarray(8 * c, 8 * c + 8))));
+    for (let c = 0; c < cellCount; ++c) if (kept[c] && !cells.subarray(8 * c, 8 * c + 8).some((v) => near.has(v))) kept[c] = 0;
+  }
+  for (const c of without) if (c < cellCount) kept[c] = 0;
   return kept;
 
   function projections({ vertexCount }: ReplayMesh, [x, y, z]: [number, number, number]) {

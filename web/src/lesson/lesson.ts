@@ -38,4 +38,6 @@ export function startLesson(): void {
   document.querySelectorAll<HTMLFormElement>('form.question').forEach(listenToQuestion);
   document.querySelectorAll<HTMLElement>('.tag-editor').forEach(makeTagEditor);
   document.querySelectorAll<HTMLButtonElement>('button[data-set]').forEach(listenToSetter);
+  const loops = document.querySelectorAll<HTMLElement>('.solver-loop');
+  if (loops.length > 0) void import('./solver_loop.ts').then(({ makeSolverLoop }) => loops.forEach(makeSolverLoop));
 }

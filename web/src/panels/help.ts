@@ -13,6 +13,7 @@ const keys: readonly [string, string][] = [
   ['I', 'look inside a mesh of hexes'],
   ['X Y Z', 'cut it across an axis, then from the other side'],
   ['E', 'its irregular edges'],
+  ['Delete N', 'hide the hex that was clicked, show it with its neighbours alone'],
   ['F W', 'show the whole mesh, the worst cell'],
   ['Ctrl ← → ↑ ↓', 'move the picture, turn hexes'],
   [', .', 'zoom out, zoom in'],

@@ -1,4 +1,5 @@
 // Beside the picture of a hexahedral mesh: what is cut away, peeled off, hidden, and drawn as glass.
+import '../../style/inside_panel.css';
 import {
   anglesOf,
   bodies,
@@ -19,6 +20,9 @@ export interface LookInsideActions {
   change(inside: Inside): void;
   /** From the mesh to the eye; null when nothing is drawn. */
   viewDirection(): number[] | null;
+  /** The cell framed in the picture, -1 for none; it is let go. */
+  takePicked(): number;
+  flyTo(cell: number): void;
 }
 
 /** What there is to see, see viewport/hex_body.ts. */
@@ -35,6 +39,8 @@ export interface InsidePanel {
   setReport(report: InsideReport): void;
   /** Cuts across an axis; once more: from the other side. */
   cutAcross(axis: 0 | 1 | 2): void;
+  /** Takes the picked cell away, or leaves it and its neighbours alone. */
+  isolate(how: 'without' | 'around'): void;
 }
 
 const cutLabels: Record<CutKind, string> = { off: 'Off', plane: 'Plane', slab: 'Slab' };
@@ -164,6 +170,22 @@ export function makeInsidePanel(actions: LookInsideActions): InsidePanel {
     { class: 'hint', hidden: true },
     'Cells around an edge; 4 is regular. On the boundary, one cell for each right angle is, and counts as 4 here.',
   );
+  const told = h('output', { class: 'hint', 'aria-live': 'polite' }, 'Click a cell in the picture, or press W for the worst.');
+  const isolate = (how: 'without' | 'around'): void => {
+    const cell = actions.takePicked();
+    told.textContent = cell < 0 ? 'First click a cell in the picture, or press W for the worst.' : '';
+    if (cell < 0) return;
+    change(how === 'around' ? { around: [cell] } : { without: [...inside.without, cell] });
+    if (how === 'around') actions.flyTo(cell);
+  };
+  const back = small('Back', 'Bring back what was hidden by hand', () => change({ without: [], around: [] }));
+  const byHand = h(
+    'div',
+    { class: 'minis', role: 'group', 'aria-label': 'By hand' },
+    small('Hide', 'Hide the framed cell (Delete)', () => isolate('without')),
+    small('Around', 'Show the framed cell and its neighbours alone (N)', () => isolate('around')),
+    back,
+  );
   const drawn = h('output', { class: 'drawn', 'aria-live': 'polite' });
   const reset = h(
     'button',
@@ -180,16 +202,19 @@ export function makeInsidePanel(actions: LookInsideActions): InsidePanel {
     h('div', { class: 'part cut-part' }, heading('Cut', kind.element), cutBox),
     h('div', { class: 'part sliders' }, peel.row),
     h('div', { class: 'part sliders' }, heading('Quality', measure), low.row, high.row),
+    h('div', { class: 'part' }, heading('By hand', byHand), told),
     h('div', { class: 'part' }, heading('Cells', body.element)),
     h('div', { class: 'part' }, h('label', { class: 'check' }, irregular, 'Irregular edges'), legend, note),
   );
   return {
     element,
     cutAcross,
+    isolate,
     update(next) {
       inside = next;
       reset.disabled = !looksInside(next);
-      const { cut, quality } = next;
+      const { cut, quality, without, around } = next;
+      back.disabled = without.length + around.length === 0;
       showPeel();
       kind.set(cut.kind);
       cutBox.hidden = cut.kind === 'off';

@@ -15,6 +15,8 @@ export interface LookInside {
   isOpen(): boolean;
   /** Cuts across an axis; once more: from the other side. */
   cutAcross(axis: 0 | 1 | 2): void;
+  /** Takes the picked cell away, or leaves it and its neighbours alone. */
+  isolate(how: 'without' | 'around'): void;
 }
 
 export function makeLookInside(actions: LookInsideActions): LookInside {
@@ -62,6 +64,7 @@ export function makeLookInside(actions: LookInsideActions): LookInside {
     setOpen,
     isOpen: () => open,
     cutAcross: (axis) => void load().then((made) => made.cutAcross(axis)),
+    isolate: (how) => void load().then((made) => made.isolate(how)),
     setReport: (report) => void load().then((made) => made.setReport(report)),
     update(inside, dim) {
       last = inside;

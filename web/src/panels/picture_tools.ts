@@ -29,7 +29,7 @@ const markLabels: Record<Mark, [label: string, explanation: string]> = {
   layer: ['Layer', 'Cells of the shrink set'],
   hull: ['Hull', 'Outline of the shrink set'],
   buffer: ['Buffer layer', 'Cells that fill the void'],
-  ellipses: ['Metric', 'Ellipses as wide as a unit edge'],
+  ellipses: ['Metric', 'Ellipses, in space ellipsoids, as wide as a unit edge'],
   isolines: ['Isolines', 'Lines of equal size, each twice as large as the next'],
   irregular: ['Irregular', 'Inner vertices with other than four quads: a dot for fewer, a ring for more'],
 };
@@ -151,7 +151,7 @@ export function makePictureTools(actions: PictureToolActions): PictureTools {
     legend: legend.element,
     update(state) {
       for (const mark of marks) chips[mark].setAttribute('aria-pressed', String(state.marks[mark]));
-      for (const mark of ['ellipses', 'isolines', 'irregular'] as const) chips[mark].hidden = state.dim === 3;
+      for (const mark of ['isolines', 'irregular'] as const) chips[mark].hidden = state.dim === 3;
       colouring.value = state.colouring;
       views.hidden = state.dim === 2;
     },

@@ -12,6 +12,7 @@ export interface SetupActions {
   chooseFigure(figure: Figure): void;
   chooseGrid(spec: string): void;
   chooseFile(file: File): void;
+  takePicture(): void;
   changeFormula(text: string): void;
   changeOption(name: OptionName, value: string): void;
   compareWith(rival: string): void;
@@ -43,10 +44,10 @@ const optionFields: readonly { name: OptionName; label: string; hint: string; ch
   {
     name: 'method',
     label: 'Method',
-    hint: 'The paper refines. Full adaptation of quads then coarsens, reconnects and aligns too.',
+    hint: 'The paper refines. Full adaptation of quads also coarsens, reconnects and aligns, and follows every change.',
     choices: [
       { value: 'paper', label: 'the paper’s' },
-      { value: 'full', label: 'full' },
+      { value: 'full', label: 'full, live' },
     ],
   },
   {
@@ -209,6 +210,7 @@ export function makeSetup(actions: SetupActions): Setup {
       h('summary', {}, 'Another initial mesh'),
       openFile,
       fileInput,
+      h('button', { type: 'button', class: 'plain wide', onclick: () => actions.takePicture() }, icon('camera'), 'Take a picture'),
       h('p', { class: 'hint' }, `Or drop a file anywhere: ${meshEndings.join(', ')}. It stays in your browser.`),
       field('Grid', grid, 'grid:NX,NY:X0,X1,Y0,Y1'),
     ),

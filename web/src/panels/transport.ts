@@ -121,7 +121,7 @@ export function makeTransport(actions: TransportActions): Transport {
     drawn = { count: events.length, width, theme };
     track.width = width;
     track.height = height;
-    const context = track.getContext('2d');
+    const context = track.getContext('2d', { willReadFrequently: true }); // no graphics card: drawing never waits for one
     if (!context || events.length === 0) return;
     const all = readColours(track.parentElement ?? track, eventKinds.map((kind) => `event-${kind}` as const));
     const colours = Object.fromEntries(eventKinds.map((kind) => [kind, all[`event-${kind}`]]));
@@ -148,9 +148,12 @@ export function makeTransport(actions: TransportActions): Transport {
     caption,
     element,
     update({ events, index, playing, running, pace: chosen, caption: words, kind, iteration }) {
-      play.replaceChildren(icon(playing ? 'pause' : 'play'));
-      play.setAttribute('aria-label', playing ? 'Pause' : 'Play');
-      play.title = playing ? 'Pause (space)' : 'Play (space)';
+      const action = playing ? 'Pause' : 'Play';
+      if (play.ariaLabel !== action) {
+        play.replaceChildren(icon(playing ? 'pause' : 'play'));
+        play.ariaLabel = action;
+        play.title = `${action} (space)`;
+      }
       // Not `disabled`: a button that is loses the focus, and the keys with it.
       const atStart = String(index === 0);
       const atEnd = String(index === events.length && (events.length > 0 || running));

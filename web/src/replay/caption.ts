@@ -19,11 +19,10 @@ export function captionOf(event: MeshEvent | undefined, mesh: ReplayMesh, thresh
   const now = (): string => cells(mesh.liveCellCount());
   if (!event) {
     if (total > 0) return `The initial mesh: ${now()}, before anything is done to it.`;
-    const wish = mesh.dim === 2 ? ' Each ellipse is the cell that the metric wants there.' : '';
-    const many = cellWord(mesh.dim, 2);
+    const glyph = mesh.dim === 2 ? 'ellipse' : 'ellipsoid';
     return (
-      `The initial mesh: ${now()}.${wish} ` +
-      `Press play: layers of ${many} are inserted until every edge has a metric length of about 1.`
+      `The initial mesh: ${now()}. Each ${glyph} is the cell wanted there. ` +
+      'Press play: layers come in until every edge measures about 1 in the metric.'
     );
   }
   const { kind, iteration, edges, delta, value } = event;

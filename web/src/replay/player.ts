@@ -44,6 +44,8 @@ export class Player {
   pace: Pace = 'auto';
   /** Changes are shown at once, for visitors who prefer reduced motion. */
   still = false;
+  /** What comes is shown as it comes, until somebody looks at another moment. */
+  following = false;
 
   /** Called when the shown mesh has changed. */
   onShow: (shown: Shown) => void = () => undefined;
@@ -70,7 +72,17 @@ export class Player {
 
   append(events: MeshEvent[]): void {
     for (const event of events) this.events.push(event);
-    this.onState();
+    if (this.following) this.move(this.events.length, 0);
+    else this.onState();
+  }
+
+  /** Another run in place of this one, at its end so far; the caller shows it. */
+  replace(mesh: MeshArrays, events: MeshEvent[]): void {
+    this.mesh = new ReplayMesh(mesh);
+    this.events = events;
+    this.complete = this.playing = false;
+    for (const { delta, iteration } of events) this.mesh.apply(delta, iteration);
+    this.index = events.length;
   }
 
   finish(): void {
@@ -98,6 +110,7 @@ export class Player {
   }
 
   play(): void {
+    this.following = false;
     if (this.atEnd && this.complete && this.index > 0) this.move(0, 0);
     this.playing = true;
     this.waited = Infinity; // the first event comes at once
@@ -112,6 +125,7 @@ export class Player {
 
   /** One event forwards (+1) or backwards (-1). */
   step(direction: 1 | -1): void {
+    this.following = false;
     this.pause();
     const target = this.index + direction;
     if (target >= 0 && target <= this.events.length) this.move(target, this.still ? 0 : longestAnimation);
@@ -126,6 +140,7 @@ export class Player {
   }
 
   seek(index: number): void {
+    this.following = false;
     this.waited = 0;
     this.playedSince = index;
     this.move(Math.max(0, Math.min(this.events.length, index)), 0);

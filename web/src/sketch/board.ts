@@ -10,6 +10,8 @@ export interface BoardHost {
   extent(): number;
   strokes(): readonly Stroke[];
   change(strokes: Stroke[]): void;
+  /** The last of them is still being drawn. */
+  paint(strokes: Stroke[]): void;
   close(): void;
 }
 
@@ -33,12 +35,17 @@ export function makeBoard(host: BoardHost): Board {
     write();
     return { row: h('label', { class: 'slider' }, h('span', {}, label), input, output), value: () => Number(input.value) };
   };
+  const stretches = [1, 1.5, 2, 3, 4, 6, 8, 12, 16];
   const size = slider('Size', { min: 0.003, max: 0.1, step: 0.001, value: 0.012 }, (v) => `${(100 * v).toFixed(1)} %`);
+  const stretch = slider('Stretch', { min: 0, max: stretches.length - 1, step: 1, value: 0 }, (i) =>
+    i === 0 ? 'round' : `${stretches[i]} : 1`,
+  );
   const panel = h(
     'section',
     { class: 'sketch-panel', 'aria-label': 'Sketch' },
-    h('p', { class: 'hint' }, 'Draw on the picture: cells become fine along the stroke.'),
+    h('p', { class: 'hint' }, 'Draw on the picture: cells become fine along the stroke, and as much longer along it as you stretch them. The mesh follows.'),
     size.row,
+    stretch.row,
     h(
       'div',
       { class: 'minis' },
@@ -50,6 +57,13 @@ export function makeBoard(host: BoardHost): Board {
 
   let drawing: [number, number][] | null = null;
   const place = (event: PointerEvent): [number, number] => host.picture.placeAt(event.clientX, event.clientY);
+  /** All strokes, with the one that is being drawn. */
+  const all = (): Stroke[] => {
+    if (!drawing) return [...host.strokes()];
+    const extent = host.extent();
+    const points = simplified(drawing, 0.006 * extent);
+    return [...host.strokes(), { size: size.value() * extent, stretch: stretches[stretch.value()], points }];
+  };
   surface.addEventListener('pointerdown', (event) => {
     if (event.button !== 0) return;
     surface.setPointerCapture(event.pointerId);
@@ -58,33 +72,60 @@ export function makeBoard(host: BoardHost): Board {
   });
   surface.addEventListener('pointermove', (event) => {
     if (!drawing) return;
-    drawing.push(place(event));
+    for (const one of event.getCoalescedEvents?.() ?? [event]) drawing.push(place(one));
     update();
+    host.paint(all());
   });
-  const end = (): void => {
+  surface.addEventListener('pointerup', () => {
     if (!drawing) return;
-    const extent = host.extent();
-    const points = simplified(drawing, 0.006 * extent);
+    const strokes = all();
     drawing = null;
-    host.change([...host.strokes(), { size: size.value() * extent, stretch: 1, points }]);
-  };
-  surface.addEventListener('pointerup', end);
+    host.change(strokes);
+  });
   surface.addEventListener('pointercancel', () => {
+    if (!drawing) return;
     drawing = null;
-    update();
+    host.change([...host.strokes()]);
   });
 
   function update(): void {
+    // The camera looks straight down: three places tell where all others are.
     const box = surface.getBoundingClientRect();
-    const line = (points: readonly (readonly [number, number])[]): string =>
-      points
-        .map(([x, y]) => host.picture.screenOf(x, y))
-        .map(([x, y]) => `${(x - box.left).toFixed(1)},${(y - box.top).toFixed(1)}`)
-        .join(' ');
-    const all = [...host.strokes().map(({ points }) => points), ...(drawing ? [drawing] : [])];
+    const [origin, right, up] = [[0, 0], [1, 0], [0, 1]].map(([x, y]) => host.picture.screenOf(x, y));
+    const seen = ([x, y]: readonly [number, number]): [number, number] => [
+      origin[0] - box.left + x * (right[0] - origin[0]) + y * (up[0] - origin[0]),
+      origin[1] - box.top + x * (right[1] - origin[1]) + y * (up[1] - origin[1]),
+    ];
     surface.replaceChildren(
-      ...all.map((points) => svg('polyline', { points: line(points.length === 1 ? [points[0], points[0]] : points) })),
+      ...all().flatMap(({ points, size, stretch }) => {
+        const ends = (points.length === 1 ? [points[0], points[0]] : points).map(seen);
+        const unit = Math.hypot(...difference(seen([size, 0]), seen([0, 0])));
+        const line = svg('polyline', { points: ends.map((end) => end.map((x) => x.toFixed(1)).join(',')).join(' ') });
+        return [line, ...glyphs(ends, unit, stretch)];
+      }),
     );
   }
   return { panel, surface, update };
+}
+
+const difference = (a: readonly number[], b: readonly number[]): [number, number] => [a[0] - b[0], a[1] - b[1]];
+
+/** The cells that a stroke asks for, one behind the other: ellipses as wide and as long as they, along it. */
+function glyphs(ends: readonly [number, number][], size: number, stretch: number): SVGElement[] {
+  const [along, across] = [Math.max(3, size * stretch) / 2, Math.max(1.5, size) / 2];
+  const gap = Math.max(2.2 * along, 9);
+  const made: SVGElement[] = [];
+  let next = along;
+  for (let i = 0; i + 1 < ends.length && made.length < 400; ++i) {
+    const [x, y] = difference(ends[i + 1], ends[i]);
+    const length = Math.hypot(x, y);
+    for (; next <= length; next += gap) {
+      const [cx, cy] = [ends[i][0] + (x * next) / length, ends[i][1] + (y * next) / length].map((v) => v.toFixed(1));
+      const turn = ((Math.atan2(y, x) * 180) / Math.PI).toFixed(0);
+      const shape = { cx, cy, rx: along.toFixed(1), ry: across.toFixed(1), transform: `rotate(${turn} ${cx} ${cy})` };
+      made.push(svg('ellipse', shape));
+    }
+    next -= length;
+  }
+  return made;
 }

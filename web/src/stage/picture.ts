@@ -150,25 +150,29 @@ export class Picture {
     return this.jacobians.values;
   }
 
-  /** Samples and draws the metric ellipses over an initial mesh. */
-  async refreshEllipses(initial: MeshArrays, tensors: (points: Float64Array) => Promise<Float64Array>): Promise<void> {
-    const { mesh } = this.player;
-    if (!this.viewport || initial.dim !== 2) return;
+  /** Samples and draws the metric ellipses over an initial mesh, if it is still `wanted` then. */
+  async refreshEllipses(
+    initial: MeshArrays,
+    tensors: (points: Float64Array) => Promise<Float64Array>,
+    wanted: () => boolean,
+  ): Promise<void> {
+    if (!this.viewport) return;
     const { sampleEllipses } = await import('../viewport/ellipse_samples.ts');
     const samples = await sampleEllipses(new ReplayMesh(initial), tensors);
-    if (mesh === this.player.mesh) this.viewport?.setEllipses(samples.centres, samples.tensors);
-    await this.refreshIsolines(initial, tensors);
+    if (wanted()) this.viewport?.setEllipses(samples.centres, samples.tensors);
+    if (initial.dim === 3) return this.paint();
+    await this.refreshIsolines(initial, tensors, wanted);
   }
 
   private async refreshIsolines(
     initial: MeshArrays,
     tensors: (points: Float64Array) => Promise<Float64Array>,
+    wanted: () => boolean,
   ): Promise<void> {
-    const { mesh } = this.player;
     if (!this.look.marks.isolines) return this.viewport?.setIsolines(new Float32Array(0));
     const { sampleIsolines } = await import('../viewport/isolines.ts');
     const segments = await sampleIsolines(new ReplayMesh(initial), tensors);
-    if (mesh === this.player.mesh) this.viewport?.setIsolines(segments);
+    if (wanted()) this.viewport?.setIsolines(segments);
   }
 
   clearEllipses(): void {
@@ -282,6 +286,16 @@ export class Picture {
   /** Flies to a cell, draws around it, and tells its numbers. */
   pin(cell: number): void {
     this.pointing?.pin(cell);
+  }
+
+  /** The cell that a click has framed, or a flight; -1: none. */
+  get picked(): number {
+    return this.pointing?.picked ?? -1;
+  }
+
+  /** What was picked is let go. */
+  unpick(): void {
+    this.pointing?.pick(-1);
   }
 
   /** 0 to 1 for each cell, as its colour map has it; -1: no colour. */

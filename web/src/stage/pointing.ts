@@ -42,7 +42,9 @@ export class Pointing {
     canvas.addEventListener('pointerdown', ({ clientX: x, clientY: y }) => (pressed = { x, y }));
     canvas.addEventListener('click', (event) => {
       const { clientX, clientY } = event;
-      if (Math.hypot(clientX - pressed.x, clientY - pressed.y) < 5) point(event as PointerEvent); // else: a drag
+      if (Math.hypot(clientX - pressed.x, clientY - pressed.y) >= 5) return; // a drag
+      if (this.player.mesh.dim === 3) this.pick(viewport.cellAt(clientX, clientY));
+      point(event as PointerEvent);
     });
     canvas.addEventListener('pointerleave', (event) => {
       cancelAnimationFrame(frame);
@@ -54,6 +56,18 @@ export class Pointing {
   forget(): void {
     this.pointed = this.pinned = -1;
     this.picture.onPoint(null);
+  }
+
+  /** The cell that stands out by a click or a flight; -1: none. */
+  get picked(): number {
+    const { mesh } = this.player;
+    return this.pinned >= 0 && this.pinned < mesh.cellCount && mesh.alive(this.pinned) ? this.pinned : -1;
+  }
+
+  /** Draws around a cell; -1: around none. */
+  pick(cell: number): void {
+    this.pinned = cell;
+    this.picture.repaint();
   }
 
   /** Flies to a cell, draws around it, and tells its numbers. */
@@ -86,7 +100,7 @@ export class Pointing {
   /** Draws the frame around the pinned cell and, if wished, the irregular vertices. */
   draw(irregular: boolean): void {
     const { mesh } = this.player;
-    const pinned = this.pinned >= 0 && this.pinned < mesh.cellCount && mesh.alive(this.pinned);
+    const pinned = this.picked >= 0;
     if (!irregular && !pinned && !this.drawn) return;
     this.drawn = irregular || pinned;
     const none = new Int32Array(0);

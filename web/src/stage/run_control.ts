@@ -1,4 +1,5 @@
 // Starting, stopping and replaying a run: what the play button, the arrow keys and a link's event come down to.
+import type { MeshEvent } from '../../../wasm/events.ts';
 import type { RunResult } from '../../../wasm/protocol.ts';
 import type { Player } from '../replay/player.ts';
 import type { Options } from '../state/settings.ts';
@@ -30,8 +31,16 @@ export class RunControl {
     private readonly workshop: Workshop,
     private readonly host: RunHost,
   ) {
-    workshop.onEvents = (events) => {
-      player.append(events);
+    workshop.onEvents = (events) => this.receive(events);
+    this.listen();
+  }
+
+  /** Takes events as they come: `listen` has them appended; app/following.ts looks at them first. */
+  receive!: (events: MeshEvent[]) => void;
+
+  listen(): void {
+    this.receive = (events) => {
+      this.player.append(events);
       this.showAwaited(false);
     };
   }
@@ -56,6 +65,7 @@ export class RunControl {
   async start(how: 'play' | { show: number }): Promise<RunResult | null> {
     const { player, workshop, host } = this;
     await workshop.abandon();
+    this.listen();
     if (player.events.length > 0) host.showInitial();
     this.awaited = how === 'play' ? null : how.show;
     const run = workshop.adapt({ ...host.options() });
@@ -103,7 +113,8 @@ export class RunControl {
     else void this.start({ show: 1 });
   }
 
-  private finish(result: RunResult): void {
+  /** The events that were received are all of them. */
+  finish(result: RunResult): void {
     this.player.finish();
     const report = JSON.parse(result.report) as { irregular_vertices?: number; mesh?: { cells: number } };
     this.irregular = report.irregular_vertices ?? null;

@@ -1,10 +1,11 @@
 // A picture that computes: mesh, metric, run, playback and drawing together, without any panel around it. The page and
 // the element <pillow-mesh> are both made of it.
+import type { MeshEvent } from '../../../wasm/events.ts';
 import type { MetricRequest } from '../../../wasm/metrics.ts';
 import type { Measures, RunResult } from '../../../wasm/protocol.ts';
 import { captionOf } from '../replay/caption.ts';
 import { Player, type Shown } from '../replay/player.ts';
-import type { MeshChoice, Settings } from '../state/settings.ts';
+import { lastEvent, type MeshChoice, type Settings } from '../state/settings.ts';
 import { Picture } from './picture.ts';
 import { Refresher } from './refresher.ts';
 import { RunControl } from './run_control.ts';
@@ -24,6 +25,8 @@ export interface StageHost {
   done(result: RunResult): void;
   stepped(shown: Shown): void;
   tell(error: unknown): void;
+  /** Takes the showing of the end of a run over: true where a mesh follows its metric. */
+  follow?(): boolean;
 }
 
 export class Stage {
@@ -35,9 +38,11 @@ export class Stage {
   /** Of the mesh as it was measured last. */
   measures: Measures | null = null;
   private readonly measuring = new Refresher(() => this.measure());
-  private readonly sampling = new Refresher(() =>
-    this.picture.refreshEllipses(this.subject.initial, (points) => this.workshop.call('tensors', { points })),
-  );
+  private readonly sampling = new Refresher(() => {
+    const { initial } = this.subject;
+    const tensors = (points: Float64Array): Promise<Float64Array> => this.workshop.call('tensors', { points });
+    return this.picture.refreshEllipses(initial, tensors, () => initial === this.subject.initial);
+  });
   private pictureLoaded: Promise<void> = Promise.resolve();
   private readonly reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
   private readonly followMotion = (): void => void (this.player.still = this.reducedMotion.matches);
@@ -60,7 +65,7 @@ export class Stage {
     const tick = makeTicker(player);
     player.onShow = (shown) => {
       this.picture.show(shown);
-      this.measuring.request(player.playing ? 200 : 20);
+      this.measuring.request(player.playing || player.following ? 200 : 20);
       host.stepped(shown);
       host.refresh();
     };
@@ -100,6 +105,7 @@ export class Stage {
     if (!(await this.open(mesh, formula))) return false;
     if (sketch && this.player.mesh.dim === 2) await this.drawSketch(sketch);
     if (camera) void this.pictureLoaded.then(() => (this.picture.pose = camera));
+    if (event === lastEvent && this.host.follow?.()) return true;
     if (event !== null && event > 0) await this.run.start({ show: event });
     return true;
   }
@@ -141,6 +147,23 @@ export class Stage {
     this.takeFormula(formula, false);
   }
 
+  /** Another metric behind the mesh that is shown, which stays. `sketch` as in the settings; null: it is not settled yet. */
+  async setFormulaBehind(formula: string, sketch: string | null): Promise<void> {
+    await this.workshop.setMetric({ formula });
+    if (sketch === null) return;
+    this.settings().sketch = sketch;
+    this.keepFormula(formula);
+    this.sampling.request(400);
+  }
+
+  /** Another run's mesh in place of the one that is shown. */
+  takeOver(events: MeshEvent[]): void {
+    this.player.replace(this.subject.initial, events);
+    this.picture.showAll(false);
+    this.measuring.request(0);
+    this.host.refresh();
+  }
+
   /** A metric made from a picture, a solution, ...: it belongs to the session and to no link. */
   async setMadeMetric(request: MetricRequest): Promise<void> {
     const nodal = await this.workshop.call('makeMetric', request);
@@ -171,8 +194,10 @@ export class Stage {
 
   /** The settings with what is shown now: what a link holds. */
   get state(): Settings {
-    const { index } = this.player;
-    const event = this.run.awaited ?? (index > 0 ? index : null);
+    const { index, following, complete, atEnd } = this.player;
+    const { method } = this.settings().options;
+    const end = following || (complete && atEnd && method === 'full'); // told by what was asked, not by a number
+    const event = this.run.awaited ?? (index === 0 && !following ? null : end ? lastEvent : index);
     return { ...this.settings(), event, camera: this.picture.pose };
   }
 
@@ -189,11 +214,14 @@ export class Stage {
   }
 
   private takeFormula(text: string, fit: boolean): void {
-    const settings = this.settings();
-    const drawn = settings.sketch !== '';
-    settings.formula = drawn || text === this.subject.ownFormula(settings.mesh) ? '' : text;
-    this.host.opened(text);
+    this.keepFormula(text);
     this.showInitial(fit);
+  }
+
+  private keepFormula(text: string): void {
+    const settings = this.settings();
+    settings.formula = settings.sketch || text === this.subject.ownFormula(settings.mesh) ? '' : text;
+    this.host.opened(text);
   }
 
   private async measure(): Promise<void> {

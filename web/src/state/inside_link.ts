@@ -1,11 +1,11 @@
 // How the mesh is looked into, as parts of a link:
-// cut=slab:90,0,0.5,0.2 peel=1 quality=eta:0,0.5 cells=glass edges=irregular
+// cut=slab:90,0,0.5,0.2 peel=1 quality=eta:0,0.5 cells=glass edges=irregular without=7,12 around=3
 import { bodies, cutKinds, defaultInside, qualityMeasures, type Inside } from '../inside/look_inside.ts';
 
 /** At most six digits; what rounding has left of a zero is one. */
 export const number = (value: number): string => String(Math.abs(value) < 1e-12 ? 0 : Number(value.toPrecision(6)));
 
-export function encodeInside({ cut, peel, quality, body, irregular }: Inside): Record<string, string> {
+export function encodeInside({ cut, peel, quality, body, irregular, without, around }: Inside): Record<string, string> {
   const parts: Record<string, string> = {};
   if (cut.kind !== 'off') {
     const numbers = [cut.turn, cut.tilt, cut.position, ...(cut.kind === 'slab' ? [cut.thickness] : [])];
@@ -16,6 +16,8 @@ export function encodeInside({ cut, peel, quality, body, irregular }: Inside): R
     parts.quality = `${quality.measure}:${number(quality.low)},${number(quality.high)}`;
   if (body !== 'auto') parts.cells = body;
   if (irregular) parts.edges = 'irregular';
+  if (without.length > 0) parts.without = without.join(',');
+  if (around.length > 0) parts.around = around.join(',');
   return parts;
 }
 
@@ -48,5 +50,8 @@ export function decodeInside(get: (name: string) => string | null): Inside {
   if (peel > 0) inside.peel = Math.min(peel, 1000);
   inside.body = bodies.find((body) => body === get('cells')) ?? inside.body;
   inside.irregular = get('edges') === 'irregular';
+  const cells = (name: string): number[] => (get(name)?.match(/\d+/g) ?? []).map(Number);
+  inside.without = cells('without');
+  inside.around = cells('around');
   return inside;
 }

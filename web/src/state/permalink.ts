@@ -28,6 +28,8 @@ export const stateNames = [
   'quality',
   'cells',
   'edges',
+  'without',
+  'around',
   'compare',
   'pace',
   'event',

@@ -21,11 +21,12 @@ const paths = {
   undo: 'M7.5 4L4 7.5 7.5 11M4 7.5h7.5a4.5 4.5 0 0 1 0 9H8',
   redo: 'M12.5 4L16 7.5 12.5 11M16 7.5H8.5a4.5 4.5 0 0 0 0 9H12',
   embed: 'M7 5.5L2.5 10 7 14.5M13 5.5l4.5 4.5-4.5 4.5',
+  camera: 'M3 6h3.5L8 4h4l1.5 2H17v10H3zM10 8a2.8 2.8 0 1 0 0 5.6A2.8 2.8 0 0 0 10 8z',
   close: 'M5 5l10 10M15 5L5 15',
 } as const;
 
 export type IconName = keyof typeof paths;
-const outlined = new Set<IconName>(['link', 'save', 'open', 'help', 'inside', 'book', 'brush', 'undo', 'redo', 'embed', 'close']);
+const outlined = new Set<IconName>(['link', 'save', 'open', 'help', 'inside', 'book', 'brush', 'undo', 'redo', 'embed', 'camera', 'close']);
 
 export function icon(name: IconName): SVGSVGElement {
   const stroke = outlined.has(name);

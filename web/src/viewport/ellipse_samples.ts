@@ -1,9 +1,9 @@
-// Where metric ellipses are drawn: cells of the initial mesh are divided until each piece is about as large as its
-// ellipse; where cells are smaller than that, ellipses that would overlap are left out.
+// Where metric ellipses and ellipsoids are drawn: cells of the initial mesh are divided until each piece is about as large
+// as its ellipse; where cells are smaller than that, ellipses that would overlap are left out.
 import type { ReplayMesh } from '../replay/replay_mesh.ts';
 
-const most = 3200;
-const rounds = 7;
+/** In the plane and in space, where each hides others: how many at the most, and how often pieces are divided. */
+const limits = { 2: { most: 3200, rounds: 7 }, 3: { most: 700, rounds: 2 } };
 /** Least distance of two centres in the metric of either; 1 would let ellipses of one size just touch. */
 const apart = 0.92;
 
@@ -14,88 +14,93 @@ export interface EllipseSamples {
   tensors: Float64Array;
 }
 
-/** A part of a cell: a rectangle in the cell's own coordinates, each from 0 to 1. */
+/** A part of a cell: a box in the cell's own coordinates, each from 0 to 1. */
 interface Piece {
   corners: number[][];
-  low: [number, number];
-  high: [number, number];
+  low: number[];
+  high: number[];
 }
 
-function at({ corners, low, high }: Piece, s: number, t: number): [number, number] {
-  const u = low[0] + s * (high[0] - low[0]);
-  const v = low[1] + t * (high[1] - low[1]);
-  const weights = [(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v];
-  return [0, 1].map((d) => weights.reduce((sum, w, k) => sum + w * corners[k][d], 0)) as [number, number];
+function at({ corners, low, high }: Piece, place: number[]): number[] {
+  const local = place.map((s, d) => low[d] + s * (high[d] - low[d]));
+  const weights = corners.map((_, k) => local.reduce((w, s, d) => w * ((k >> d) & 1 ? s : 1 - s), 1));
+  return place.map((_, d) => weights.reduce((sum, w, k) => sum + w * corners[k][d], 0));
 }
 
-/** Metric length across a piece along its two axes, with the tensor of its middle. */
-function lengths(piece: Piece, m: ArrayLike<number>, i: number): [number, number] {
-  return [0, 1].map((axis) => {
-    const [a, b] = axis === 0 ? [at(piece, 0, 0.5), at(piece, 1, 0.5)] : [at(piece, 0.5, 0), at(piece, 0.5, 1)];
-    const [x, y] = [b[0] - a[0], b[1] - a[1]];
-    return Math.sqrt(m[3 * i] * x * x + 2 * m[3 * i + 1] * x * y + m[3 * i + 2] * y * y);
-  }) as [number, number];
+/** v'Mv of the i-th tensor: m11 m12 m22 [m13 m23 m33]. */
+function square(m: ArrayLike<number>, i: number, v: number[]): number {
+  const [x, y, z] = v;
+  if (v.length === 2) return m[3 * i] * x * x + 2 * m[3 * i + 1] * x * y + m[3 * i + 2] * y * y;
+  const flat = m[6 * i] * x * x + 2 * m[6 * i + 1] * x * y + m[6 * i + 2] * y * y;
+  return flat + 2 * m[6 * i + 3] * x * z + 2 * m[6 * i + 4] * y * z + m[6 * i + 5] * z * z;
 }
 
-function divide(piece: Piece, parts: [number, number]): Piece[] {
-  const between = (axis: number, k: number): number =>
-    piece.low[axis] + (k / parts[axis]) * (piece.high[axis] - piece.low[axis]);
-  const pieces: Piece[] = [];
-  for (let j = 0; j < parts[1]; ++j)
-    for (let i = 0; i < parts[0]; ++i)
-      pieces.push({
-        corners: piece.corners,
-        low: [between(0, i), between(1, j)],
-        high: [between(0, i + 1), between(1, j + 1)],
-      });
-  return pieces;
+/** Metric length across a piece along its axes, with the tensor of its middle. */
+function lengths(piece: Piece, m: ArrayLike<number>, i: number): number[] {
+  return piece.low.map((_, axis) => {
+    const [a, b] = [0, 1].map((s) => at(piece, piece.low.map((_, d) => (d === axis ? s : 0.5))));
+    return Math.sqrt(square(m, i, b.map((x, d) => x - a[d])));
+  });
 }
 
-/** Samples of a 2D mesh; `tensors` evaluates the metric at points. */
+function divide({ corners, low, high }: Piece, parts: number[]): Piece[] {
+  const total = parts.reduce((all, n) => all * n, 1);
+  return Array.from({ length: total }, (_, k) => {
+    const place = parts.map((n) => {
+      const mine = k % n;
+      k = Math.floor(k / n);
+      return mine;
+    });
+    const between = (by: number) => place.map((p, d) => low[d] + ((p + by) / parts[d]) * (high[d] - low[d]));
+    return { corners, low: between(0), high: between(1) };
+  });
+}
+
+/** Samples of a mesh; `tensors` evaluates the metric at points. */
 export async function sampleEllipses(mesh: ReplayMesh, tensors: Tensors): Promise<EllipseSamples> {
+  const { dim, cornerCount, points, cells } = mesh;
+  const { most, rounds } = limits[dim as 2 | 3];
+  const size = dim === 2 ? 3 : 6;
   const stride = Math.max(1, Math.ceil(mesh.liveCellCount() / most));
   let open: Piece[] = [];
   for (let c = 0; c < mesh.cellCount; c += stride) {
     if (!mesh.alive(c)) continue;
-    const corners = Array.from(mesh.cells.subarray(4 * c, 4 * c + 4), (v) => [
-      mesh.points[2 * v],
-      mesh.points[2 * v + 1],
-    ]);
-    open.push({ corners, low: [0, 0], high: [1, 1] });
+    const corners = Array.from(cells.subarray(cornerCount * c, cornerCount * (c + 1)), (v) => Array.from(points.subarray(dim * v, dim * (v + 1))));
+    open.push({ corners, low: new Array<number>(dim).fill(0), high: new Array<number>(dim).fill(1) });
   }
-  const centres: number[] = [];
+  const centres: number[][] = [];
   const metric: number[] = [];
   for (let round = 1; open.length > 0; ++round) {
-    const middles = open.flatMap((piece) => at(piece, 0.5, 0.5));
-    const m = await tensors(Float64Array.from(middles));
+    const middles = open.map((piece) => at(piece, piece.low.map(() => 0.5)));
+    const m = await tensors(Float64Array.from(middles.flat()));
     const next: Piece[] = [];
     open.forEach((piece, i) => {
-      const parts = lengths(piece, m, i).map((l) => Math.max(1, Math.min(3, Math.floor(l)))) as [number, number];
-      const room = centres.length / 2 + next.length + open.length - i < most;
-      if (round < rounds && room && parts[0] * parts[1] > 1) {
+      const across = lengths(piece, m, i);
+      if (dim === 3 && Math.min(...across) < 0.7) return; // larger than what it stands in: it would hide the others
+      const parts = across.map((l) => Math.max(1, Math.min(3, Math.floor(l))));
+      const room = centres.length + next.length + open.length - i < most;
+      if (round < rounds && room && parts.some((n) => n > 1)) {
         next.push(...divide(piece, parts));
       } else {
-        centres.push(middles[2 * i], middles[2 * i + 1]);
-        metric.push(m[3 * i], m[3 * i + 1], m[3 * i + 2]);
+        centres.push(middles[i]);
+        metric.push(...m.subarray(size * i, size * (i + 1)));
       }
     });
     open = next;
   }
-  return withoutOverlaps(centres, metric);
+  return withoutOverlaps(centres, metric, size);
 }
 
 /** Keeps, in order, what is far enough from all that was kept before. */
-function withoutOverlaps(centres: number[], metric: number[]): EllipseSamples {
+function withoutOverlaps(centres: number[][], metric: number[], size: number): EllipseSamples {
   const kept: number[] = [];
   const near = (i: number, j: number): boolean => {
-    const [x, y] = [centres[2 * i] - centres[2 * j], centres[2 * i + 1] - centres[2 * j + 1]];
-    const within = (k: number): boolean =>
-      metric[3 * k] * x * x + 2 * metric[3 * k + 1] * x * y + metric[3 * k + 2] * y * y < apart * apart;
-    return within(i) && within(j);
+    const away = centres[i].map((x, d) => x - centres[j][d]);
+    return square(metric, i, away) < apart * apart && square(metric, j, away) < apart * apart;
   };
-  for (let i = 0; i < centres.length / 2; ++i) if (!kept.some((j) => near(i, j))) kept.push(i);
+  centres.forEach((_, i) => kept.some((j) => near(i, j)) || kept.push(i));
   return {
-    centres: Float64Array.from(kept.flatMap((i) => [centres[2 * i], centres[2 * i + 1]])),
-    tensors: Float64Array.from(kept.flatMap((i) => [metric[3 * i], metric[3 * i + 1], metric[3 * i + 2]])),
+    centres: Float64Array.from(kept.flatMap((i) => centres[i])),
+    tensors: Float64Array.from(kept.flatMap((i) => metric.slice(size * i, size * (i + 1)))),
   };
 }

@@ -14,6 +14,7 @@ import {
   SRGBColorSpace,
 } from 'three';
 import type { Facets } from '../inside/facets.ts';
+import type { Relief } from '../inside/relief.ts';
 import type { ReplayMesh } from '../replay/replay_mesh.ts';
 import type { Palette } from './palette.ts';
 import { faceFragmentShader, faceVertexShader } from './shaders.ts';
@@ -41,7 +42,8 @@ export class FaceLayer {
   private to!: BufferAttribute;
   /** Per corner: value to be coloured (-1: none), mark. */
   private paint!: BufferAttribute;
-  /** In 3D: the normal of each face, the same at its corners, so that a warped one does not show two triangles. */
+  /** In 3D: the normal of each face, the same at its corners, so that a warped one does not show two triangles; how hollow
+   *  the surface is at the corner. */
   private facing!: BufferAttribute;
   private moving: Int32Array | 'all' = new Int32Array(0);
   private readonly texture = new DataTexture(new Uint8Array(256 * 4), 256, 1, RGBAFormat);
@@ -134,7 +136,7 @@ export class FaceLayer {
   }
 
   /** In 3D: these faces instead of what was there; they come from where their vertices were. */
-  replace(mesh: ReplayMesh, facets: Facets, origins?: Origins): void {
+  replace(mesh: ReplayMesh, facets: Facets, relief: Relief, origins?: Origins): void {
     this.faceCells = facets.cells;
     this.inner = facets.inner;
     this.count = facets.cells.length;
@@ -143,9 +145,10 @@ export class FaceLayer {
     if (this.count > this.capacity) this.allocate(Math.ceil(1.5 * this.count));
     for (let face = 0; face < this.count; ++face) {
       this.writeFace(mesh, face, facets.vertices, 4 * face, false, origins);
-      this.writeFacing(face);
+      this.writeFacing(face, relief);
     }
-    this.upload([this.from, this.to, this.facing], 'all', 12);
+    this.upload([this.from, this.to], 'all', 12);
+    this.upload([this.facing], 'all', 16);
     this.object.geometry.setDrawRange(0, 6 * this.count);
   }
 
@@ -219,21 +222,11 @@ export class FaceLayer {
     }
   }
 
-  /** The cross product of the diagonals. */
-  private writeFacing(face: number): void {
-    const to = this.to.array;
+  private writeFacing(face: number, { normals, hollow }: Relief): void {
     const out = this.facing.array;
-    const at = 12 * face;
-    const [a, b, c] = [to[at + 9] - to[at], to[at + 10] - to[at + 1], to[at + 11] - to[at + 2]];
-    const [p, q, r] = [to[at + 6] - to[at + 3], to[at + 7] - to[at + 4], to[at + 8] - to[at + 5]];
-    const x = b * r - c * q;
-    const y = c * p - a * r;
-    const z = a * q - b * p;
-    const length = Math.sqrt(x * x + y * y + z * z) || 1;
-    for (let i = at; i < at + 12; i += 3) {
-      out[i] = x / length;
-      out[i + 1] = y / length;
-      out[i + 2] = z / length;
+    for (let k = 0, at = 16 * face; k < cornersPerFace; ++k) {
+      for (let i = 0; i < 3; ++i) out[at++] = normals[3 * face + i];
+      out[at++] = hollow[4 * face + k];
     }
   }
 
@@ -260,7 +253,7 @@ export class FaceLayer {
 
   private allocate(capacity: number): void {
     const before = this.capacity > 0 ? [this.from, this.to, this.paint, this.facing] : [];
-    const attributes = [12, 12, 8, 12].map((size, i) => {
+    const attributes = [12, 12, 8, 16].map((size, i) => {
       const array = new Float32Array(size * capacity);
       if (before[i]) array.set(before[i].array as Float32Array);
       return new BufferAttribute(array, size / cornersPerFace).setUsage(DynamicDrawUsage);

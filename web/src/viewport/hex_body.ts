@@ -1,10 +1,11 @@
 // A hexahedral mesh as it is looked into: solid cells, cells of glass, irregular edges. Rebuilt when the mesh or what
 // is hidden changes, never while the camera moves.
-import { Group } from 'three';
+import { Group, type Matrix4 } from 'three';
 import { Anatomy } from '../inside/anatomy.ts';
 import { drawing, glassFacets, solidFacets } from '../inside/facets.ts';
 import { irregularKinds } from '../inside/irregular_edges.ts';
 import { keptCells, type Inside } from '../inside/look_inside.ts';
+import { outlineOf, reliefOf } from '../inside/relief.ts';
 import type { ReplayMesh } from '../replay/replay_mesh.ts';
 import type { Scene } from '../replay/scene.ts';
 import type { Mark } from '../state/settings.ts';
@@ -32,6 +33,8 @@ export interface Wishes {
   faded: (cell: number) => boolean;
   /** Where vertices were before the change that is being shown. */
   origins?: Origins | undefined;
+  /** There are metric ellipsoids to be seen inside. */
+  glyphs: boolean;
 }
 
 export class HexBody {
@@ -42,6 +45,7 @@ export class HexBody {
     new Strokes({ width: 2.6, opacity: 0.3 }, 2),
     new Strokes({ width: 3.6, lift: 4e-4 }, 3 + 0.1 * kind),
   ]);
+  private readonly outline = new Strokes({ width: 2, lift: 3e-4, outline: true }, 1);
   private anatomy: Anatomy | null = null;
 
   constructor() {
@@ -50,11 +54,12 @@ export class HexBody {
   }
 
   get strokes(): Strokes[] {
-    return this.edges.flat();
+    return [this.outline, ...this.edges.flat()];
   }
 
   setPalette(palette: Palette): void {
     this.glass.setPalette(palette);
+    this.outline.setColour(palette.outline);
     this.edges.forEach((pair, kind) => pair.forEach((strokes) => strokes.setColour(palette.irregular[kind])));
   }
 
@@ -68,6 +73,7 @@ export class HexBody {
 
   setProgress(progress: number): void {
     this.glass.setProgress(progress);
+    this.outline.object.visible = progress === 1; // it is that of the mesh as it will be
   }
 
   /** Nothing is drawn any more, e.g. because a mesh of quadrilaterals came. */
@@ -81,8 +87,9 @@ export class HexBody {
     solid: FaceLayer,
     mesh: ReplayMesh,
     scene: Scene,
-    { inside, shown, faded, origins }: Wishes,
+    wishes: Wishes,
   ): InsideReport {
+    const { inside, faded, origins } = wishes;
     const start = performance.now();
     if (this.anatomy?.mesh !== mesh) this.anatomy = new Anatomy(mesh);
     const { anatomy } = this;
@@ -94,9 +101,14 @@ export class HexBody {
       deepest: anatomy.depths.deepest,
       irregular: inside.irregular ? anatomy.irregular.map((edges) => edges.length / 2) : null,
     };
-    const draw = this.drawingOf(kept, scene, inside, shown);
-    solid.replace(mesh, solidFacets(mesh, anatomy.neighbours, draw), origins);
-    this.glass.replace(mesh, glassFacets(mesh, anatomy.neighbours, draw), origins);
+    const draw = this.drawingOf(kept, scene, inside, wishes);
+    const seen = solidFacets(mesh, anatomy.neighbours, draw);
+    const relief = reliefOf(mesh, seen);
+    const { edges, normals } = outlineOf(mesh.vertexCount, seen, relief);
+    solid.replace(mesh, seen, relief, origins);
+    this.outline.setSegments(segmentsOf(mesh, edges), normals);
+    const glass = glassFacets(mesh, anatomy.neighbours, draw);
+    this.glass.replace(mesh, glass, reliefOf(mesh, glass), origins);
     this.setEdges(mesh, kept, inside.irregular);
     performance.measure('pillowmesh: facets', { start });
     return report;
@@ -107,19 +119,25 @@ export class HexBody {
     this.glass.paintCells(value, mark);
   }
 
+  /** See FaceLayer.cellAt. */
+  cellAt(x: number, y: number, matrix: Matrix4): number {
+    return this.glass.cellAt(x, y, matrix);
+  }
+
   dispose(): void {
     this.glass.dispose();
     for (const strokes of this.strokes) strokes.dispose();
   }
 
-  private drawingOf(kept: Uint8Array, scene: Scene, { body }: Inside, shown: Record<Mark, boolean>): Uint8Array {
+  private drawingOf(kept: Uint8Array, scene: Scene, { body, around }: Inside, { shown, glyphs }: Wishes): Uint8Array {
     const layer = shown.layer ? scene.layer : [];
     const buffer = shown.buffer ? scene.buffer : [];
     const tags = shown.tags ? scene.tags : [];
-    const glass = body === 'glass' || (body === 'auto' && layer.length + buffer.length + tags.length > 0);
+    const inner = layer.length + buffer.length + tags.length + around.length > 0 || glyphs;
+    const glass = body === 'glass' || (body === 'auto' && inner);
     const draw = kept.map((k) => (k ? (glass ? drawing.glass : drawing.solid) : drawing.hidden));
     if (!glass) return draw;
-    for (const c of layer) if (kept[c]) draw[c] = drawing.solid;
+    for (const c of [...layer, ...around]) if (kept[c]) draw[c] = drawing.solid;
     for (const c of buffer) if (kept[c]) draw[c] = drawing.tinted;
     return draw;
   }

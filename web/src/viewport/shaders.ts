@@ -10,16 +10,18 @@ export const faceVertexShader = /* glsl */ `
   in vec3 from;
   in vec3 to;
   in vec2 paint;
-  in vec3 facing;
+  in vec4 facing;
   uniform float progress;
   out vec2 corner;
   flat out vec3 normalSeen;
   flat out vec2 painted;
+  out float hollow;
 
   void main() {
     corner = vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1);
     painted = paint;
-    normalSeen = normalMatrix * facing;
+    normalSeen = normalMatrix * facing.xyz;
+    hollow = facing.w;
     gl_Position = projectionMatrix * modelViewMatrix * vec4(mix(from, to, progress), 1.0);
   }
 `;
@@ -28,6 +30,7 @@ export const faceFragmentShader = /* glsl */ `
   in vec2 corner;
   flat in vec3 normalSeen;
   flat in vec2 painted;
+  in float hollow;
   uniform float progress;
   uniform sampler2D colours;
   uniform float coloured;
@@ -71,6 +74,7 @@ export const faceFragmentShader = /* glsl */ `
     if (lit > 0.5) {
       float upwards = normalSeen.z < 0.0 ? -normalSeen.y : normalSeen.y;
       colour *= 0.66 + 0.34 * abs(normalSeen.z) + 0.06 * upwards;
+      colour *= 1.0 - (hollow < 0.0 ? 0.1 : coloured > 0.5 ? 0.42 : 0.62) * hollow; // less sky in hollows, more light on edges
     }
 
     // Distance in pixels to the four sides; lines fade where cells become as small as the lines.
@@ -104,6 +108,9 @@ export const strokeVertexShader = /* glsl */ `
   uniform float trim;
   uniform vec2 resolution;
   uniform float lift;
+  uniform bool outline;
+  in vec3 facing1;
+  in vec3 facing2;
   out vec2 along; // pixels along the segment from its start, and across
   flat out float pixels;
 
@@ -121,6 +128,8 @@ export const strokeVertexShader = /* glsl */ `
     along = vec2(far ? pixels + reach : -reach, position.y * reach);
     vec4 base = far ? b : a;
     gl_Position = vec4(at / (0.5 * resolution) * base.w, base.z - lift * base.w, base.w);
+    // An outline: one facet is seen from its front, the other from behind.
+    if (outline && (normalMatrix * facing1).z * (normalMatrix * facing2).z > 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   }
 `;
 
@@ -175,6 +184,32 @@ export const ellipseFragmentShader = /* glsl */ `
     float alpha = max(0.85 * rim, 0.13 * fill) * mix(0.5, 1.0, smoothstep(2.0, 8.0, size)) * strength;
     if (alpha < 0.004) discard;
     gl_FragColor = vec4(colour, alpha);
+    ${output}
+  }
+`;
+
+/** Ellipsoids as the image of the unit ball, whose normals go by the inverse transpose. */
+export const ellipsoidVertexShader = /* glsl */ `
+  in vec3 centre;
+  in vec3 axis1;
+  in vec3 axis2;
+  in vec3 axis3;
+  out vec3 normalSeen;
+
+  void main() {
+    mat3 axes = mat3(axis1, axis2, axis3);
+    normalSeen = normalMatrix * (transpose(inverse(axes)) * position);
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(centre + axes * position, 1.0);
+  }
+`;
+
+export const ellipsoidFragmentShader = /* glsl */ `
+  in vec3 normalSeen;
+  uniform vec3 colour;
+
+  void main() {
+    vec3 n = normalize(normalSeen);
+    gl_FragColor = vec4(colour * (0.55 + 0.45 * n.z + 0.1 * n.y) + 0.05 * (1.0 + n.y), 1.0);
     ${output}
   }
 `;

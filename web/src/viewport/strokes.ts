@@ -2,8 +2,9 @@
 import {
   BufferAttribute,
   Color,
-  InstancedBufferAttribute,
   InstancedBufferGeometry,
+  InstancedInterleavedBuffer,
+  InterleavedBufferAttribute,
   Mesh,
   ShaderMaterial,
   Vector2,
@@ -20,6 +21,8 @@ export interface StrokeStyle {
   opacity?: number;
   /** Hidden by what is nearer than this, in normalised depth; undefined: drawn over everything. */
   lift?: number;
+  /** Drawn only where one of the two facets at the segment faces the eye. */
+  outline?: boolean;
 }
 
 export class Strokes {
@@ -41,6 +44,7 @@ export class Strokes {
         trim: { value: style.trim ?? 0 },
         dash: { value: style.dash ?? 0 },
         lift: { value: style.lift ?? 0 },
+        outline: { value: style.outline ?? false },
         opacity: { value: style.opacity ?? 1 },
         colour: { value: new Color() },
         resolution: { value: new Vector2(1, 1) },
@@ -72,19 +76,17 @@ export class Strokes {
     uniforms.dash.value = (this.style.dash ?? 0) * ratio;
   }
 
-  /** Segments as 6 coordinates each. */
-  setSegments(coordinates: Float32Array): void {
+  /** Segments as 6 coordinates each; for outlines as many of the two normals. */
+  setSegments(coordinates: Float32Array, normals?: Float32Array): void {
     const { object } = this;
     object.geometry.dispose();
     object.geometry = unitQuad();
-    const starts = new Float32Array(coordinates.length / 2);
-    const ends = new Float32Array(coordinates.length / 2);
-    for (let i = 0; i < coordinates.length / 6; ++i) {
-      starts.set(coordinates.subarray(6 * i, 6 * i + 3), 3 * i);
-      ends.set(coordinates.subarray(6 * i + 3, 6 * i + 6), 3 * i);
-    }
-    object.geometry.setAttribute('start', new InstancedBufferAttribute(starts, 3));
-    object.geometry.setAttribute('finish', new InstancedBufferAttribute(ends, 3));
+    const put = (names: [string, string], pairs: Float32Array): void => {
+      const buffer = new InstancedInterleavedBuffer(pairs, 6);
+      names.forEach((name, i) => object.geometry.setAttribute(name, new InterleavedBufferAttribute(buffer, 3, 3 * i)));
+    };
+    put(['start', 'finish'], coordinates);
+    if (normals) put(['facing1', 'facing2'], normals);
     object.geometry.instanceCount = coordinates.length / 6;
     object.visible = coordinates.length > 0;
   }

@@ -1,10 +1,11 @@
 // The picture: layers seen by a camera, drawn only when something has changed.
 import { Color, Scene as ThreeScene, WebGLRenderer } from 'three';
-import { defaultInside, type Inside } from '../inside/look_inside.ts';
+import { defaultInside, looksInside, type Inside } from '../inside/look_inside.ts';
 import type { ReplayMesh } from '../replay/replay_mesh.ts';
-import type { Scene } from '../replay/scene.ts';
+import { emptyScene, type Scene } from '../replay/scene.ts';
 import { defaultMarks, type Mark } from '../state/settings.ts';
 import { Ellipses } from './ellipses.ts';
+import { Ellipsoids } from './ellipsoids.ts';
 import { FaceLayer, faceMarks, type Origins } from './face_layer.ts';
 import { HexBody, type InsideReport } from './hex_body.ts';
 import type { Palette } from './palette.ts';
@@ -12,6 +13,8 @@ import { boundaryEdges, dotsAt, facetEdges, segmentsOf } from './segments.ts';
 import { Strokes } from './strokes.ts';
 import { Triad } from './triad.ts';
 import { View } from './view.ts';
+
+const nothing = [new Float64Array(0), new Float64Array(0)] as const;
 
 export class Viewport {
   /** Called while the camera moves. */
@@ -28,6 +31,7 @@ export class Viewport {
   private readonly triad = new Triad();
   private readonly outline = new Strokes({ width: 2.2 }, 1);
   private readonly ellipses = new Ellipses(2);
+  private readonly ellipsoids = new Ellipsoids();
   private readonly tags = new Strokes({ width: 4.2, trim: 0.16 }, 4);
   private readonly hull = new Strokes({ width: 2.6, dash: 9 }, 5);
   private readonly layerEdges = new Strokes({ width: 5.4, trim: 0.08 }, 6);
@@ -41,6 +45,7 @@ export class Viewport {
   private inside: Inside = defaultInside();
   private origins: Origins | undefined;
   private frame = 0;
+  private size = '';
   private animation: { start: number; duration: number } | null = null;
   private shown: Record<Mark, boolean> = { ...defaultMarks };
 
@@ -70,7 +75,7 @@ export class Viewport {
   }
 
   private get layers() {
-    return [this.faces, this.hexes, this.ellipses, ...this.strokes];
+    return [this.faces, this.hexes, this.ellipses, this.ellipsoids, ...this.strokes];
   }
 
   private get strokes() {
@@ -87,6 +92,7 @@ export class Viewport {
     this.layerEdges.setColour(palette.tag);
     this.hull.setColour(palette.hull);
     this.ellipses.setColour(palette.ellipse);
+    this.ellipsoids.setColour(palette.ellipse);
     this.isolines.setColour(palette.ellipse);
     this.pin.setColour(palette.outline);
     this.fewer.setColour(palette.irregular[0]);
@@ -131,8 +137,12 @@ export class Viewport {
     chords: readonly Int32Array[],
   ): InsideReport | null {
     const { inside, shown, origins } = this;
+    // Ellipsoids are the subject before the run; in it, and where one looks inside, they are seen in glass alone.
+    const subject = scene === emptyScene && !looksInside(inside);
+    const glyphs = shown.ellipses && this.ellipsoids.count > 0 && (subject || inside.body === 'glass');
     const report =
-      mesh.dim === 3 ? this.hexes.rebuild(this.faces, mesh, scene, { inside, shown, faded, origins }) : null;
+      mesh.dim === 3 ? this.hexes.rebuild(this.faces, mesh, scene, { inside, shown, faded, origins, glyphs }) : null;
+    this.ellipsoids.object.visible = mesh.dim === 3 && glyphs;
     this.repaint(mesh, scene, value, faded, chords);
     const none = new Int32Array(0);
     // Through glass all tags are seen at once: they stand back when there is a layer to look at.
@@ -188,9 +198,11 @@ export class Viewport {
     this.requestRender();
   }
 
-  /** Centres and metric tensors of 2D ellipses. */
+  /** Centres and metric tensors; ellipsoids are drawn with the next scene. */
   setEllipses(centres: Float64Array, tensors: Float64Array): void {
-    this.ellipses.set(centres, tensors);
+    const solid = this.view.dim === 3;
+    this.ellipses.set(...(solid ? nothing : ([centres, tensors] as const)));
+    this.ellipsoids.set(...(solid ? ([centres, tensors] as const) : nothing));
     this.setMarks(this.shown);
   }
 
@@ -212,9 +224,11 @@ export class Viewport {
     this.requestRender();
   }
 
-  /** The cell that is drawn at a point of the window; -1 for none. */
+  /** The cell that is drawn at a point of the window, a solid one rather than one of glass; -1 for none. */
   cellAt(clientX: number, clientY: number): number {
-    return this.faces.cellAt(...this.view.windowAt(clientX, clientY), this.view.matrix());
+    const place = [...this.view.windowAt(clientX, clientY), this.view.matrix()] as const;
+    const solid = this.faces.cellAt(...place);
+    return solid < 0 && this.view.dim === 3 ? this.hexes.cellAt(...place) : solid;
   }
 
   /** A PNG of the picture as it is, at a multiple of its size. */
@@ -240,12 +254,17 @@ export class Viewport {
     this.triad.element.remove();
   }
 
+  /** The frustum anew; the canvas, which costs, only when its size has changed. */
   private resize(): void {
     const width = Math.max(1, this.host.clientWidth);
     const height = Math.max(1, this.host.clientHeight);
+    const ratio = Math.min(devicePixelRatio, 2);
+    const size = `${width} ${height} ${ratio}`;
     this.view.setFrustum(width, height);
+    if (size === this.size) return this.requestRender();
+    this.size = size;
     this.renderer.setSize(width, height);
-    this.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.setPixelRatio(ratio);
     this.draw(performance.now()); // at once: resizing has emptied the canvas
   }
 
