@@ -47,6 +47,7 @@ struct Adapter<Dim>::State {
   std::vector<CellId> seeds;  ///< cells that may carry tags, in the order in which layers are sought
   std::size_t next_seed = 0;
   std::int64_t inserted = 0;  ///< layers in this iteration
+  std::optional<double> longest;  ///< of the edges, for events: since the last iteration, while nothing has changed
   std::int64_t refused = 0;   ///< layers that no legal insertion was found for, in this iteration
   LayerMarks layer_marks;
   Layer layer;
@@ -159,7 +160,9 @@ struct Adapter<Dim>::State {
     balance_tags<Dim>(mesh, tags, seeds);
     tagging.collect_tagged_cells(mesh, tags, seeds);
     drop_frozen_tags(mesh, tags, seeds);
-    recorder.tags(mesh, tags, iteration, options.record ? longest_edge(mesh, target) : 0.0);
+    if (options.record && !longest) longest = longest_edge(mesh, target);
+    recorder.tags(mesh, tags, iteration, longest.value_or(0.0));
+    longest.reset();
     next_seed = 0;
     first_new = mesh.cell_count();
     inserted = refused = 0;
@@ -229,7 +232,8 @@ struct Adapter<Dim>::State {
   void end_iteration() {
     ++iteration;
     ++iterations;
-    recorder.iteration(mesh, iteration, options.record ? longest_edge(mesh, target) : 0.0);
+    if (options.record) longest = longest_edge(mesh, target);
+    recorder.iteration(mesh, iteration, longest.value_or(0.0));
     if (options.smoothing == Smoothing::between && inserted > 0) {
       stage = Stage::smooth_between;
       begin_smoothing();
@@ -239,6 +243,7 @@ struct Adapter<Dim>::State {
   }
 
   void begin_smoothing() {
+    longest.reset();
     relocator.reset();
     sweeps = 0;
   }

@@ -94,10 +94,15 @@ double target_length(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
     return 0.955;
   } else {
     const auto edges = unique_edges(mesh);
+    std::vector<Point<Dim>> middles;
+    middles.reserve(edges.size());
+    for (const auto& [a, b] : edges) middles.emplace_back(0.5 * (mesh.points[a] + mesh.points[b]));
+    std::vector<SymTensor<Dim>> metrics(edges.size());
+    field.evaluate(middles, metrics);
     double sum = 0.0;
-    for (const auto& [a, b] : edges) {
-      const Point<Dim> e = mesh.points[b] - mesh.points[a];
-      sum += std::sqrt(dot(field.evaluate(Point<Dim>(0.5 * (mesh.points[a] + mesh.points[b]))), e, e));
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const Point<Dim> e = mesh.points[edges[i][1]] - mesh.points[edges[i][0]];
+      sum += std::sqrt(dot(metrics[i], e, e));
     }
     return std::min(std::sqrt(sum / static_cast<double>(edges.size())), 1.0);
   }
