@@ -75,8 +75,10 @@ class SimplexEdges {
       if (i > 0 && keys_[i][0] == keys_[i - 1][0]) continue;
       const std::array<VertexId, 2> pair{static_cast<VertexId>(keys_[i][0] >> 32),
                                          static_cast<VertexId>(keys_[i][0] & 0xffffffffu)};
-      next = std::lower_bound(next, known.edges.end(), pair);
-      if (next != known.edges.end() && *next == pair) {
+      const auto [from, to] = kPairs.pair[keys_[i][1] % kPerCell];
+      const bool diagonal = ((from ^ to) & ((from ^ to) - 1)) != 0;
+      if (!diagonal) next = std::lower_bound(next, known.edges.end(), pair);
+      if (!diagonal && next != known.edges.end() && *next == pair) {
         unique_.push_back(known.lengths[next - known.edges.begin()]);
         continue;
       }
