@@ -26,8 +26,8 @@ inline double sine_of_arc(double y, double radius) {
 }
 
 inline double size_to_metric(double h) {
-  const double quotient = 1.0 / (h * h);
-  return h > 0.0 ? quotient : std::numeric_limits<double>::quiet_NaN();
+  const double size = h > 0.0 ? h : std::numeric_limits<double>::quiet_NaN();
+  return 1.0 / (size * size);
 }
 
 }  // namespace pillowmesh::operations
