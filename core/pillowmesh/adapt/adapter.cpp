@@ -18,12 +18,13 @@
 #include "pillowmesh/refine/dice.h"
 #include "pillowmesh/refine/layer.h"
 #include "pillowmesh/refine/tag_inheritance.h"
+#include "pillowmesh/smooth/polish.h"
 #include "pillowmesh/smooth/relocate.h"
 
 namespace pillowmesh {
 namespace {
 
-enum class Stage { tag, layers, smooth_between, dice, smooth_end, improve, done };
+enum class Stage { tag, layers, smooth_between, dice, smooth_end, polish, improve, done };
 
 }  // namespace
 
@@ -56,6 +57,7 @@ struct Adapter<Dim>::State {
   std::optional<Relocator<Dim>> relocator;
   std::unique_ptr<Schedule> schedule;  ///< full adaptation only
   int sweeps = 0;
+  double energy = 0.0;  ///< after the last of them
   bool smoothed = false;  ///< the last smoothing is done; only a look at the lengths is left
   int rounds = 0;         ///< of refinement and last smoothing
   double share = 0.0;     ///< of the work, as last reported
@@ -104,6 +106,7 @@ struct Adapter<Dim>::State {
       case Stage::smooth_between: smooth(Stage::tag); break;
       case Stage::dice: dice_all(); break;
       case Stage::smooth_end: smooth(Stage::done); break;
+      case Stage::polish: polish(); break;
       case Stage::improve: improve(); break;
       case Stage::done: break;
     }
@@ -255,7 +258,8 @@ struct Adapter<Dim>::State {
     if (!relocator) relocator.emplace(mesh, next == Stage::done ? field : target);
     recorder.before_relocation(mesh);
     const SweepResult result = relocator->sweep();
-    recorder.relocation(mesh, iteration, result.energy - result.decrease);
+    energy = result.energy - result.decrease;
+    recorder.relocation(mesh, iteration, energy);
     relocations += result.moved;
     ++sweeps;
     ++sweep_count;
@@ -273,9 +277,22 @@ struct Adapter<Dim>::State {
       smoothed = true;
       inserted = 1;
       stage = Stage::tag;
-      return;
     }
-    report_progress("done");
+    if (Dim == 3 && moved && continuation.steep()) stage = Stage::polish;
+    if (stage == Stage::done) report_progress("done");
+  }
+
+  /// Where sizes change fast, the few cells that the smoother leaves poor.
+  void polish() {
+    stage = smoothed ? Stage::tag : Stage::done;
+    if constexpr (Dim == 3) {
+      const Stopwatch watch(seconds["polish"]);
+      report_progress("lifting the worst cells");
+      recorder.before_relocation(mesh);
+      const PolishResult result = polish_shapes(mesh, field, {.threshold = options.threshold});
+      if (result.moved > 0) recorder.relocation(mesh, iteration, energy);
+    }
+    if (stage == Stage::done) report_progress("done");
   }
 
   [[nodiscard]] bool full() const { return Dim == 2 && kHasFullAdaptation && full_adaptation(options); }

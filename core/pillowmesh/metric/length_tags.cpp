@@ -90,16 +90,18 @@ void tag_long_edges(const MetricField<Dim>& field, std::span<const Point<Dim>> p
     }
     const double* f = sampler.finish();
     for (std::size_t i = start; i < end; ++i, ++f) {
-      // Boole's rule on each panel, and how far Simpson's is off: more than the error.
+      // Boole's rule on each panel, and how far Simpson's and the trapezoids are off: more than the error. At a kink
+      // either of them can agree by chance, hardly both.
       double sum = 0.0, error = 0.0;
       const int n = panels[i - start];
       for (int k = 0; k < n; ++k, f += 4) {
         const double boole = (7.0 * (f[0] + f[4]) + 32.0 * (f[1] + f[3]) + 12.0 * f[2]) / 90.0;
         sum += boole;
-        error += std::fabs(boole - (f[0] + f[4] + 4.0 * (f[1] + f[3]) + 2.0 * f[2]) / 12.0);
+        error += 2.0 * std::fabs(boole - (f[0] + f[4] + 4.0 * (f[1] + f[3]) + 2.0 * f[2]) / 12.0) +
+                 std::fabs(boole - (0.5 * (f[0] + f[4]) + f[1] + f[2] + f[3]) / 4.0);
       }
       const double length = sum / n;
-      if (std::fabs(length - threshold) > 2.0 * error / n + margin) {
+      if (std::fabs(length - threshold) > error / n + margin) {
         tagged[i] = length > threshold ? 1 : 0;
         continue;
       }
