@@ -1,3 +1,4 @@
+import { availableParallelism } from 'node:os';
 import { defineConfig } from 'vitest/config';
 
 // One project per suite of scripts/test.mjs. The suites that build, start programs or drive a browser run one file at
@@ -10,6 +11,8 @@ const project = (name: string, timeout: number, serial = true, globalSetup: stri
     testTimeout: timeout,
     hookTimeout: timeout,
     fileParallelism: !serial,
+    // Vitest leaves one core free, which of two is half.
+    maxWorkers: serial ? 1 : availableParallelism(),
     globalSetup,
   },
 });

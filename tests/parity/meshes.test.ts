@@ -1,5 +1,5 @@
 // The command and the WebAssembly module are two builds of one core, by two compilers: they must give the same bits.
-import { spawnSync } from 'node:child_process';
+import { execFile, spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -22,14 +22,18 @@ afterAll(() => rmSync(folder, { recursive: true }));
 
 const flags = (options: Options): string[] => Object.entries(options).flatMap(([name, value]) => [`--${name}`, value]);
 
-/** Runs the command; a run that ends at a limit (status 1) counts: its mesh is compared as well. */
-function adaptNatively(args: string[], name: string): { file: Buffer; report: Report } {
+/**
+ * Starts the command, which goes on beside what is done in WebAssembly until it is awaited. A run that ends at a limit
+ * (status 1) counts: its mesh is compared as well.
+ */
+function adaptNatively(args: string[], name: string): Promise<{ file: Buffer; report: Report }> {
   const [out, report] = [join(folder, name), join(folder, 'report.json')];
-  const { status, stderr } = spawnSync(command, ['adapt', ...args, '-q', '-o', out, '--report', report], {
-    encoding: 'utf8',
+  return new Promise((resolve, reject) => {
+    execFile(command, ['adapt', ...args, '-q', '-o', out, '--report', report], (error, _, stderr) => {
+      if (error !== null && error.code !== 1) reject(new Error(`status ${String(error.code)}: ${stderr}`));
+      else resolve({ file: readFileSync(out), report: JSON.parse(readFileSync(report, 'utf8')) as Report });
+    });
   });
-  if (status !== 0 && status !== 1) throw new Error(`status ${status}: ${stderr}`);
-  return { file: readFileSync(out), report: JSON.parse(readFileSync(report, 'utf8')) as Report };
 }
 
 function adaptInWasm(
@@ -60,10 +64,11 @@ const numbers = ({ mesh, edge_length, shape, irregular_vertices, complexity, val
 
 describe('native and WebAssembly give the same mesh and the same numbers', () => {
   for (const { name } of cases(core))
-    test(`case ${name}`, () => {
+    test(`case ${name}`, async () => {
       const options: Options = { 'max-cells': '12000', effort: 'fast' };
-      const native = adaptNatively(['--case', name, ...flags(options)], 'mesh.vtu');
+      const running = adaptNatively(['--case', name, ...flags(options)], 'mesh.vtu');
       const wasm = adaptInWasm({ kind: 'case', name }, null, options, 'mesh.vtu');
+      const native = await running;
       expect(text(wasm.file) === text(native.file)).toBe(true);
       expect(native.report.operations.layers, 'a run that does something').toBeGreaterThan(0);
       expect(numbers(wasm.report)).toEqual(numbers(native.report));
@@ -72,8 +77,9 @@ describe('native and WebAssembly give the same mesh and the same numbers', () =>
   for (const name of ['iso2d', 'aniso2d', 'circle2d'])
     test(`case ${name} by the paper's method, in the module for that alone`, async () => {
       const options: Options = { method: 'paper' };
-      const native = adaptNatively(['--case', name, ...flags(options)], 'mesh.vtu');
+      const running = adaptNatively(['--case', name, ...flags(options)], 'mesh.vtu');
       const wasm = adaptInWasm({ kind: 'case', name }, null, options, 'mesh.vtu', await load(2));
+      const native = await running;
       expect(text(wasm.file) === text(native.file)).toBe(true);
       expect(numbers(wasm.report)).toEqual(numbers(native.report));
     });
@@ -86,9 +92,10 @@ describe('native and WebAssembly give the same mesh and the same numbers', () =>
     { thickness: '2', augment: '0' },
   ];
   for (const options of variants)
-    test(`circle2d with ${flags(options).join(' ')}`, () => {
-      const native = adaptNatively(['--case', 'circle2d', ...flags(options)], 'mesh.mesh');
+    test(`circle2d with ${flags(options).join(' ')}`, async () => {
+      const running = adaptNatively(['--case', 'circle2d', ...flags(options)], 'mesh.mesh');
       const wasm = adaptInWasm({ kind: 'case', name: 'circle2d' }, null, options, 'mesh.mesh');
+      const native = await running;
       expect(text(wasm.file) === text(native.file)).toBe(true);
     });
 
@@ -101,7 +108,7 @@ describe('native and WebAssembly give the same mesh and the same numbers', () =>
       session.destroy();
     });
 
-  test('a formula of every function, on a mesh that comes as a file', () => {
+  test('a formula of every function, on a mesh that comes as a file', async () => {
     const formula =
       'a = 0.02 + 0.05*abs(sin(3*x)*cos(2*y)) + 0.01*exp(-x^2)*tanh(y) + 0.01*log(2 + x);' +
       'theta = atan2(y - 0.3, x + 0.2) + 0.1*asin(0.5*x) - 0.1*acos(0.5*y);' +
@@ -111,8 +118,9 @@ describe('native and WebAssembly give the same mesh and the same numbers', () =>
     const bytes = write(start, 'start.msh');
     expect(spawnSync(command, ['convert', 'grid:6,5:0,1,0,1', path]).status).toBe(0);
     expect(text(readFileSync(path)) === text(bytes)).toBe(true);
-    const native = adaptNatively([path, '--metric', formula], 'mesh.msh');
+    const running = adaptNatively([path, '--metric', formula], 'mesh.msh');
     const wasm = adaptInWasm({ kind: 'file', name: 'start.msh', bytes }, formula, {}, 'mesh.msh');
+    const native = await running;
     expect(text(wasm.file) === text(native.file)).toBe(true);
     expect(numbers(wasm.report)).toEqual(numbers(native.report));
   });

@@ -287,10 +287,9 @@ struct Adapter<Dim>::State {
     stage = smoothed ? Stage::tag : Stage::done;
     if constexpr (Dim == 3) {
       const Stopwatch watch(seconds["polish"]);
-      report_progress("lifting the worst cells");
       recorder.before_relocation(mesh);
-      const PolishResult result = polish_shapes(mesh, field, {.threshold = options.threshold});
-      if (result.moved > 0) recorder.relocation(mesh, iteration, energy);
+      if (polish_shapes(mesh, field, {.threshold = options.threshold}).moved > 0)
+        recorder.relocation(mesh, iteration, energy);
     }
     if (stage == Stage::done) report_progress("done");
   }

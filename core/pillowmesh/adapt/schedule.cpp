@@ -20,11 +20,11 @@ struct Budget {
 };
 Budget budget_of(Effort effort) {
   switch (effort) {
-    case Effort::fast: return {2, 0.3, 0.15, 1, 1, 0, 4, 6};
-    case Effort::normal: return {12, 0.4, 0.1, 2, 6, 2, 20, 40};
+    case Effort::fast: return {3, 0.3, 0.1, 3, 1, 0, 4, 6};
+    case Effort::normal: return {16, 0.4, 0.08, 8, 6, 2, 20, 40};
     case Effort::best: break;
   }
-  return {100, 0.6, 0.1, 5, 20, 6, 40, 150};
+  return {140, 0.6, 0.05, 20, 20, 6, 40, 150};
 }
 
 /// Weight of alignment in the energy when the option asks for all of it.
@@ -166,7 +166,8 @@ bool Schedule::step() {
 }
 
 void Schedule::count() {
-  constexpr const char* names[kOperators] = {"rotations", "collapses", "openings", "chord_collapses", "chord_splits"};
+  constexpr const char* names[kOperators] = {"rotations",    "collapses",          "openings",         "chord_collapses",
+                                               "chord_splits", "boundary_collapses", "boundary_openings"};
   std::int64_t tried = 0;
   for (int i = 0; i < kOperators; ++i) {
     operations_[names[i]] = trial_.counts[i].kept;
