@@ -13,15 +13,26 @@ endif()
 string(JOIN "|" hot
   "refine/(balance|buffer_layer|edge_tags|hull|layer|tag_inheritance|untangle|vertex_copies)" "smooth/" "quality/shape"
   "metric/(background|program|field|length|volume)" "adapt/tagging" "mesh/(foot|slide|topology)")
+# The module for hexahedra has room for more. What is listed here is compiled once more for it: of an inline function
+# that was not inlined, the linker keeps one copy for all callers, and it may be one from a source compiled with -Oz.
+string(JOIN "|" hot_in_3d "adapt/(adapter|longest_edge|recorder)" "mesh/validate" "quality/")
+set(fast_in_3d)
 foreach(source ${core_sources} ${wasm_sources})
   if(source MATCHES "pillowmesh/(${hot})|third_party")
     set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -O2 -flto)
+  elseif(source MATCHES "pillowmesh/(${hot_in_3d})")
+    list(APPEND fast_in_3d ${source})
+    set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS
+      $<IF:$<STREQUAL:$<TARGET_PROPERTY:OUTPUT_NAME>,pillowmesh3d>,-O2,-Oz> -flto)
   else()
     set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -Oz -flto)
   endif()
   # Scalars packed into SIMD lanes one by one: with clang 14 the smoother of hexahedra takes twice the time, and
-  # metric/background.cpp gives other numbers than native. Loops over lanes are vectorised all the same.
-  set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -fno-slp-vectorize)
+  # metric/background.cpp gives other numbers than native. Loops over lanes are vectorised all the same, but for those of
+  # programs, which are unrolled before: there formulas with roots and quotients would take twice the time.
+  if(NOT source MATCHES "metric/program_run")
+    set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -fno-slp-vectorize)
+  endif()
 endforeach()
 
 # Sources that ask which dimensions there are (mesh/any_mesh.h), or which methods (adapt/options.h), are compiled for each
@@ -50,10 +61,12 @@ function(pillowmesh_module target)
 endfunction()
 
 set(adapting wasm/c_api.cpp wasm/events.cpp wasm/nodal_bytes.cpp ${by_dimension} ${by_method})
+set(adapting_in_3d ${fast_in_3d} ${adapting})
+list(REMOVE_DUPLICATES adapting_in_3d)
 pillowmesh_module(pillowmesh_wasm OUTPUT pillowmesh SOURCES ${adapting}
   DEFINITIONS PILLOWMESH_DIMENSION=2 PILLOWMESH_PAPER_ONLY)
 pillowmesh_module(pillowmesh_wasm_full OUTPUT pillowmesh_full SOURCES ${adapting} DEFINITIONS PILLOWMESH_DIMENSION=2)
-pillowmesh_module(pillowmesh_wasm3d OUTPUT pillowmesh3d SOURCES ${adapting} DEFINITIONS PILLOWMESH_DIMENSION=3)
+pillowmesh_module(pillowmesh_wasm3d OUTPUT pillowmesh3d SOURCES ${adapting_in_3d} DEFINITIONS PILLOWMESH_DIMENSION=3)
 pillowmesh_module(pillowmesh_wasm_files OUTPUT pillowmesh_files SOURCES wasm/files_api.cpp ${by_dimension})
 pillowmesh_module(pillowmesh_wasm_metrics OUTPUT pillowmesh_metrics
   SOURCES wasm/metrics_api.cpp wasm/nodal_bytes.cpp ${by_dimension})

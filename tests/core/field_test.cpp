@@ -84,6 +84,24 @@ TEST_CASE("theta and phi rotate as the paper's Eqs. (10) and (11), in the order 
   CHECK(full(field<3>(sizes + "phi = -0.35").evaluate(Point<3>(1, 2, 3))).isApprox(rp * d * rp.transpose(), 1e-14));
 }
 
+TEST_CASE("two equal sizes give the tensor that two names of the same size give") {
+  const std::string angles = "; theta = 0.3 + x; phi = y - 0.2", a = "0.1 + x", b = "2 + z", same = "2 + z + 0*x";
+  const std::pair<std::string, std::string> texts[] = {
+      {"h1 = " + a + "; h2 = " + b + "; h3 = " + b, "h1 = " + a + "; h2 = " + b + "; h3 = " + same},
+      {"h2 = " + a + "; h3 = " + b + "; h1 = " + b, "h2 = " + a + "; h3 = " + b + "; h1 = " + same},
+      {"h3 = " + a + "; h1 = " + b + "; h2 = " + b, "h3 = " + a + "; h1 = " + b + "; h2 = " + same}};
+  for (const auto& [short_text, long_text] : texts)
+    for (const Point<3>& p : {Point<3>(0, 0, 0), Point<3>(0.4, -1, 3), Point<3>(2, 5, -1)})
+      CHECK(full(field<3>(short_text + angles).evaluate(p)).isApprox(full(field<3>(long_text + angles).evaluate(p)), 1e-14));
+}
+
+TEST_CASE("sine and cosine of an arc are quotients, and those of no angle at the origin") {
+  const MetricField<2> f = field<2>("t = atan2(y, x); m11 = 2 + cos(t); m12 = 0; m22 = 2 + sin(t)");
+  CHECK(f.evaluate(Point<2>(3, 4)).m == std::array<double, 3>{2.6, 0, 2.8});
+  CHECK(f.evaluate(Point<2>(0, 0)).m == std::array<double, 3>{3, 0, 2});
+  CHECK(f.evaluate(Point<2>(-2, 0)).m == std::array<double, 3>{1, 0, 2});
+}
+
 TEST_CASE("the tensor can be given by its entries") {
   CHECK(field<2>("m11 = 4; m12 = x; m22 = 2").evaluate(Point<2>(0.5, 0)).m == std::array<double, 3>{4, 0.5, 2});
   CHECK(field<3>("m11=1;m12=2;m22=3;m13=4;m23=5;m33=6").evaluate(Point<3>(0, 0, 0)).m ==

@@ -6,6 +6,7 @@
 
 #include "../catch.h"
 #include "pillowmesh/mesh/primitives.h"
+#include "pillowmesh/mesh/topology.h"
 #include "pillowmesh/metric/gallery.h"
 #include "pillowmesh/quality/statistics.h"
 
@@ -95,6 +96,26 @@ TEST_CASE("both shapes agree where the metric is uniform") {
   const Mesh<3> mesh = make_grid<3>({2, 1, 3}, Point<3>(0, 0, 0), Point<3>(1, 1, 1));
   const auto s = shapes(mesh, "theta = 0.4; phi = 0.7; h1 = 0.3; h2 = 0.5; h3 = 1");
   for (std::size_t c = 0; c < s.flat.size(); ++c) CHECK(s.integral[c] == Approx(s.flat[c]));
+}
+
+TEST_CASE("lengths that are known change nothing but the work") {
+  const auto mesh = make_grid<3>({3, 2, 2}, Point<3>(0, 0, 0), Point<3>(1, 1, 1));
+  const auto field = *MetricField<3>::from_formula("h = 0.1 + abs(x - 0.4)");
+  auto edges = unique_edges(mesh);
+  for (auto& e : edges)
+    if (e[1] < e[0]) std::swap(e[0], e[1]);
+  std::sort(edges.begin(), edges.end());
+  std::vector<double> lengths(edges.size());
+  edge_lengths<3>(field, mesh.points, edges, lengths);
+  std::vector<CellId> cells(mesh.cells.size());
+  for (std::size_t c = 0; c < cells.size(); ++c) cells[c] = static_cast<CellId>(c);
+  std::vector<double> without(cells.size()), with(cells.size());
+  cell_shapes<3>(mesh, field, cells, without, {});
+  cell_shapes<3>(mesh, field, cells, with, {}, {}, {edges, lengths});
+  CHECK(with == without);
+  for (double& l : lengths) l *= 1.5;  // they are used
+  cell_shapes<3>(mesh, field, cells, with, {}, {}, {edges, lengths});
+  CHECK(with != without);
 }
 
 TEST_CASE("the paper's initial shapes are reproduced") {

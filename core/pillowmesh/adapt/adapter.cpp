@@ -18,12 +18,13 @@
 #include "pillowmesh/refine/dice.h"
 #include "pillowmesh/refine/layer.h"
 #include "pillowmesh/refine/tag_inheritance.h"
+#include "pillowmesh/smooth/polish.h"
 #include "pillowmesh/smooth/relocate.h"
 
 namespace pillowmesh {
 namespace {
 
-enum class Stage { tag, layers, smooth_between, dice, smooth_end, improve, done };
+enum class Stage { tag, layers, smooth_between, dice, smooth_end, polish, improve, done };
 
 }  // namespace
 
@@ -47,6 +48,7 @@ struct Adapter<Dim>::State {
   std::vector<CellId> seeds;  ///< cells that may carry tags, in the order in which layers are sought
   std::size_t next_seed = 0;
   std::int64_t inserted = 0;  ///< layers in this iteration
+  std::optional<double> longest;  ///< of the edges, for events: since the last iteration, while nothing has changed
   std::int64_t refused = 0;   ///< layers that no legal insertion was found for, in this iteration
   LayerMarks layer_marks;
   Layer layer;
@@ -55,6 +57,7 @@ struct Adapter<Dim>::State {
   std::optional<Relocator<Dim>> relocator;
   std::unique_ptr<Schedule> schedule;  ///< full adaptation only
   int sweeps = 0;
+  double energy = 0.0;  ///< after the last of them
   bool smoothed = false;  ///< the last smoothing is done; only a look at the lengths is left
   int rounds = 0;         ///< of refinement and last smoothing
   double share = 0.0;     ///< of the work, as last reported
@@ -103,6 +106,7 @@ struct Adapter<Dim>::State {
       case Stage::smooth_between: smooth(Stage::tag); break;
       case Stage::dice: dice_all(); break;
       case Stage::smooth_end: smooth(Stage::done); break;
+      case Stage::polish: polish(); break;
       case Stage::improve: improve(); break;
       case Stage::done: break;
     }
@@ -159,7 +163,9 @@ struct Adapter<Dim>::State {
     balance_tags<Dim>(mesh, tags, seeds);
     tagging.collect_tagged_cells(mesh, tags, seeds);
     drop_frozen_tags(mesh, tags, seeds);
-    recorder.tags(mesh, tags, iteration, options.record ? longest_edge(mesh, target) : 0.0);
+    if (options.record && !longest) longest = longest_edge(mesh, target);
+    recorder.tags(mesh, tags, iteration, longest.value_or(0.0));
+    longest.reset();
     next_seed = 0;
     first_new = mesh.cell_count();
     inserted = refused = 0;
@@ -229,7 +235,8 @@ struct Adapter<Dim>::State {
   void end_iteration() {
     ++iteration;
     ++iterations;
-    recorder.iteration(mesh, iteration, options.record ? longest_edge(mesh, target) : 0.0);
+    if (options.record) longest = longest_edge(mesh, target);
+    recorder.iteration(mesh, iteration, longest.value_or(0.0));
     if (options.smoothing == Smoothing::between && inserted > 0) {
       stage = Stage::smooth_between;
       begin_smoothing();
@@ -239,6 +246,7 @@ struct Adapter<Dim>::State {
   }
 
   void begin_smoothing() {
+    longest.reset();
     relocator.reset();
     sweeps = 0;
   }
@@ -250,7 +258,8 @@ struct Adapter<Dim>::State {
     if (!relocator) relocator.emplace(mesh, next == Stage::done ? field : target);
     recorder.before_relocation(mesh);
     const SweepResult result = relocator->sweep();
-    recorder.relocation(mesh, iteration, result.energy - result.decrease);
+    energy = result.energy - result.decrease;
+    recorder.relocation(mesh, iteration, energy);
     relocations += result.moved;
     ++sweeps;
     ++sweep_count;
@@ -268,9 +277,21 @@ struct Adapter<Dim>::State {
       smoothed = true;
       inserted = 1;
       stage = Stage::tag;
-      return;
     }
-    report_progress("done");
+    if (Dim == 3 && moved && continuation.steep()) stage = Stage::polish;
+    if (stage == Stage::done) report_progress("done");
+  }
+
+  /// Where sizes change fast, the few cells that the smoother leaves poor.
+  void polish() {
+    stage = smoothed ? Stage::tag : Stage::done;
+    if constexpr (Dim == 3) {
+      const Stopwatch watch(seconds["polish"]);
+      recorder.before_relocation(mesh);
+      if (polish_shapes(mesh, field, {.threshold = options.threshold}).moved > 0)
+        recorder.relocation(mesh, iteration, energy);
+    }
+    if (stage == Stage::done) report_progress("done");
   }
 
   [[nodiscard]] bool full() const { return Dim == 2 && kHasFullAdaptation && full_adaptation(options); }

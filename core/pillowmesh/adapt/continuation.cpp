@@ -35,7 +35,7 @@ int steps_for(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
 
 template <int Dim>
 Continuation<Dim>::Continuation(const Mesh<Dim>& mesh, const MetricField<Dim>& field, int steps)
-    : steps_(steps >= 0 ? steps : steps_for(mesh, field)) {
+    : steps_(steps >= 0 ? steps : steps_for(mesh, field)), steep_(steps_ > 0) {
   if (steps_ > 0) floor_ = mean_edge(mesh);
 }
 

@@ -16,6 +16,8 @@ class Continuation {
   Continuation(const Mesh<Dim>& mesh, const MetricField<Dim>& field, int steps);
 
   [[nodiscard]] bool done() const { return steps_ == 0; }
+  /// True if there were steps to take: sizes change fast.
+  [[nodiscard]] bool steep() const { return steep_; }
   /// The next floor. \pre !done()
   void next();
   /// The field on its way.
@@ -23,6 +25,7 @@ class Continuation {
 
  private:
   int steps_;
+  bool steep_;
   double floor_ = 0.0;
 };
 

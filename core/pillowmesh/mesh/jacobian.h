@@ -82,10 +82,17 @@ double jacobian_at(const std::array<double, 3>& at, Position&& position) {
   return triple(along[0], along[1], along[2]);
 }
 
-/// The lowest Jacobian determinant of the trilinear map of a hexahedron at the lattice of 3 x 3 x 3 points whose local
-/// coordinates are 0, 1/2 or 1. Not above the lowest of the corners, and nearly the lowest of all.
+/// What the Jacobians of a hexahedron's trilinear map say of it, at the lattice of 3 x 3 x 3 points whose local
+/// coordinates are 0, 1/2 or 1.
+struct LatticeJacobians {
+  double lowest;  ///< of all: not above the lowest of the corners, and nearly the lowest of all points
+  double corner;  ///< min_corner_jacobian
+  double scaled;  ///< min_scaled_jacobian
+};
+
+/// All at once: they share the edges, and the corners are points of the lattice.
 template <class Position>
-double min_lattice_jacobian(Position&& position) {
+LatticeJacobians lattice_jacobians(Position&& position) {
   using C = Cell<3>;
   // Per axis, the derivative along it at the 3 x 3 places in the plane of the other two: it is constant along the axis.
   std::array<std::array<Point<3>, 9>, 3> along;
@@ -99,14 +106,28 @@ double min_lattice_jacobian(Position&& position) {
     at[7] = 0.5 * (at[6] + at[8]);
     for (int i = 0; i < 3; ++i) at[3 + i] = 0.5 * (at[i] + at[6 + i]);
   }
-  double lowest = triple(along[0][0], along[1][0], along[2][0]);
+  const auto lower = [](double& lowest, double d) {
+    if (!(d >= lowest)) lowest = d;
+  };
+  LatticeJacobians found;
+  found.lowest = found.corner = triple(along[0][0], along[1][0], along[2][0]);
+  found.scaled = 1.0;
   for (int z = 0; z < 3; ++z)
     for (int y = 0; y < 3; ++y)
       for (int x = 0; x < 3; ++x) {
-        const double d = triple(along[0][y + 3 * z], along[1][x + 3 * z], along[2][x + 3 * y]);
-        if (!(d >= lowest)) lowest = d;
+        const Point<3>&a = along[0][y + 3 * z], &b = along[1][x + 3 * z], &c = along[2][x + 3 * y];
+        const double d = triple(a, b, c);
+        lower(found.lowest, d);
+        if (x == 1 || y == 1 || z == 1) continue;
+        lower(found.corner, d);
+        lower(found.scaled, d / std::sqrt(a.squaredNorm() * b.squaredNorm() * c.squaredNorm()));
       }
-  return lowest;
+  return found;
+}
+
+template <class Position>
+double min_lattice_jacobian(Position&& position) {
+  return lattice_jacobians(position).lowest;
 }
 
 }  // namespace pillowmesh

@@ -129,11 +129,14 @@ template <int Dim>
 std::vector<std::array<VertexId, 2>> unique_edges(const Mesh<Dim>& mesh) {
   std::vector<std::array<VertexId, 2>> edges;
   edges.reserve(static_cast<std::size_t>(mesh.cell_count()) * Dim + Dim * 8);
+  std::vector<std::uint16_t> seen(mesh.cells.size(), 0);  // per cell: edges that a lower cell has
   for (CellId c = 0; c < mesh.cell_count(); ++c) {
     if (!mesh.alive(c)) continue;
-    for (int e = 0; e < Cell<Dim>::edges; ++e)
-      if (represents_edge(mesh, {c, e}))
-        edges.push_back({mesh.cells[c][Cell<Dim>::edge_from(e)], mesh.cells[c][Cell<Dim>::edge_to(e)]});
+    for (int e = 0; e < Cell<Dim>::edges; ++e) {
+      if ((seen[c] >> e) & 1) continue;
+      for_each_cell_at_edge(mesh, {c, e}, [&](CellId n, int f) { seen[n] |= static_cast<std::uint16_t>(1u << f); });
+      edges.push_back({mesh.cells[c][Cell<Dim>::edge_from(e)], mesh.cells[c][Cell<Dim>::edge_to(e)]});
+    }
   }
   return edges;
 }

@@ -49,6 +49,8 @@ class Differentiation {
       case Op::multiply:
         return plus(times(d(a), b), times(a, d(b)));
       case Op::divide:
+      case Op::cosine_of_arc:
+      case Op::sine_of_arc:
         return minus(over(d(a), b), times(over(id, b), d(b)));
       case Op::negate:
         return minus(number(0.0), d(a));
@@ -86,13 +88,6 @@ class Differentiation {
         return choose(g_.make(Op::less, b, a), d(a), d(b));
       case Op::select:
         return choose(a, d(b), d(c));
-      case Op::cosine_of_arc:  // b / sqrt(a^2 + b^2)
-      case Op::sine_of_arc: {  // a / sqrt(a^2 + b^2)
-        const NodeId radius2 = plus(square(a), square(b)), radius = root(radius2);
-        const NodeId top = n.op == Op::sine_of_arc ? a : b;
-        const NodeId slope = plus(times(a, d(a)), times(b, d(b)));
-        return minus(over(d(top), radius), over(times(top, slope), times(radius2, radius)));
-      }
       case Op::size_to_metric:  // a^-2
         return times(number(-2.0), over(times(id, d(a)), a));
       default:  // constants; floor, comparisons: flat between their jumps

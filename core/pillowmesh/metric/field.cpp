@@ -106,6 +106,9 @@ class TensorBuilder {
     // Columns of R_theta R_phi; in 2D phi = 0 and the third row and column fall away.
     const std::array<std::array<NodeId, 3>, 3> u{
         {{times(ct, cp), times(st, cp), minus(sp)}, {minus(st), ct, zero}, {times(ct, sp), times(st, sp), cp}}};
+    if constexpr (Dim == 3)
+      for (int k = 0; k < 3; ++k)
+        if (d[(k + 1) % 3] == d[(k + 2) % 3]) return with_axis(u[k], d[k], d[(k + 1) % 3]);
     std::vector<NodeId> m(kSize);
     for (int j = 0; j < Dim; ++j) {
       for (int i = 0; i <= j; ++i) {
@@ -113,6 +116,20 @@ class TensorBuilder {
         for (int k = 0; k < Dim; ++k) sum = graph_.make(Op::add, sum, times(d[k], times(u[k][i], u[k][j])));
         m[SymTensor<Dim>::at(i, j)] = sum;
       }
+    }
+    return m;
+  }
+
+  // The same where two of the sizes are one: M = a u u' + b (I - u u') needs only the third direction. The diagonal of
+  // I - u u' is summed from squares, which stay exact where b is far larger than a.
+  std::vector<NodeId> with_axis(const std::array<NodeId, 3>& u, NodeId a, NodeId b) {
+    std::vector<NodeId> m(kSize);
+    const NodeId difference = graph_.make(Op::subtract, a, b);
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      const NodeId others = graph_.make(Op::add, times(u[j], u[j]), times(u[k], u[k]));
+      m[SymTensor<3>::at(i, i)] = graph_.make(Op::add, times(a, times(u[i], u[i])), times(b, others));
+      m[SymTensor<3>::at(std::min(i, j), std::max(i, j))] = times(difference, times(u[i], u[j]));
     }
     return m;
   }

@@ -192,7 +192,9 @@ NodeId Graph::simplify_circular(Op op, NodeId angle) {
   const bool cosine = op == Op::cosine;
   const Node node = nodes_[angle];
   if (node.op == Op::arc_tangent_2) {
-    return make(cosine ? Op::cosine_of_arc : Op::sine_of_arc, node.operands[0], node.operands[1]);
+    const auto [y, x, none] = node.operands;
+    const NodeId square = make(Op::add, make(Op::multiply, x, x), make(Op::multiply, y, y));
+    return make(cosine ? Op::cosine_of_arc : Op::sine_of_arc, cosine ? x : y, make(Op::square_root, square));
   }
   if (node.op == Op::negate) {
     const NodeId positive = make(op, node.operands[0]);

@@ -38,8 +38,8 @@ enum class Op : std::uint8_t {
   equal,
   not_equal,
   select,          ///< a != 0 ? b : c
-  cosine_of_arc,   ///< cos(atan2(a, b)), without either
-  sine_of_arc,     ///< sin(atan2(a, b))
+  cosine_of_arc,   ///< a / b, and 1 where b is 0: with b = sqrt(a^2 + c^2), cos(atan2(c, a))
+  sine_of_arc,     ///< a / b, and 0 where b is 0: sin(atan2(a, c)), likewise
   size_to_metric,  ///< 1 / a^2, and not a number unless a > 0
   skip_if_none,    ///< programs only: jumps when no lane of a is true
   skip_if_all,     ///< programs only: jumps when all lanes of a are true

@@ -161,35 +161,10 @@ class Integrator {
   [[nodiscard]] int edge_count() const { return edges_; }
 
   void add(const Edge<Dim>& edge) {
-    constexpr double kMostPanels = 4096.0;
-    const double wanted = options_.panel > 0.0 ? std::ceil(edge.euclidean_length() / options_.panel) : 1.0;
-    const int panels = wanted > 1.0 ? static_cast<int>(std::min(wanted, kMostPanels)) : 1;
+    const int panels = panel_count(edge.euclidean_length(), options_.panel);
     const double half = 0.5 / panels;
     for (int i = 0; i < panels; ++i) pieces_.push_back({edges_, (2 * i + 1) * half, half});
     edge_[edges_++] = edge;
-  }
-
-  /// Estimates of the lengths and of their errors by the 7-point rule on every piece.
-  void estimate() {
-    for (int e = 0; e < edges_; ++e) length_[e] = error_[e] = 0.0;
-    for (std::size_t start = 0; start < pieces_.size(); start += kBatch) {
-      const std::size_t end = std::min(pieces_.size(), start + kBatch);
-      for (std::size_t i = start; i < end; ++i) sampler_.add(edge_[pieces_[i].edge], pieces_[i]);
-      const double* f = sampler_.evaluate(kFirst, 7);
-      const std::size_t n = end - start;
-      double rule[2][kBatch];
-      for (std::size_t k = 0; k < n; ++k) {
-        const double g[7] = {f[k], f[n + k], f[2 * n + k], f[3 * n + k], f[4 * n + k], f[5 * n + k], f[6 * n + k]};
-        rule[0][k] = rule7(g);
-        rule[1][k] = rule4(g);
-      }
-      for (std::size_t k = 0; k < n; ++k) {
-        const Piece& piece = pieces_[start + k];
-        const double value = piece.half * rule[0][k];
-        length_[piece.edge] += value;
-        error_[piece.edge] += std::fabs(value - piece.half * rule[1][k]);
-      }
-    }
   }
 
   void integrate() {
@@ -207,8 +182,6 @@ class Integrator {
   }
 
   [[nodiscard]] double length(int e) const { return length_[e]; }
-  /// Of estimate(): twice what the rules disagree by.
-  [[nodiscard]] double error(int e) const { return 2.0 * error_[e]; }
 
  private:
   static constexpr std::size_t kBatch = Sampler<Dim>::kUsual;
@@ -267,7 +240,7 @@ class Integrator {
   LengthOptions options_;
   int edges_ = 0;
   std::array<Edge<Dim>, kChunk> edge_;
-  std::array<double, kChunk> length_, error_, allowed_;
+  std::array<double, kChunk> length_, allowed_;
   std::vector<Piece> pieces_;
   std::vector<Sampled> sampled_;
 };
@@ -314,38 +287,10 @@ void edge_lengths(const MetricField<Dim>& field, std::span<const Point<Dim>> poi
   }
 }
 
-template <int Dim>
-void tag_long_edges(const MetricField<Dim>& field, std::span<const Point<Dim>> points,
-                    std::span<const std::array<VertexId, 2>> edges, double threshold, double panel,
-                    std::span<unsigned char> tagged) {
-  const LengthOptions options{.tolerance = 1e-7, .panel = panel};
-  const double margin = 1e-7 * threshold;
-  Integrator<Dim> quick(field, options);
-  Integrator<Dim> exact(field, options);
-  std::array<std::size_t, Integrator<Dim>::kChunk> doubtful;
-  const auto decide_doubtful = [&] {
-    exact.integrate();
-    for (int k = 0; k < exact.edge_count(); ++k) tagged[doubtful[k]] = exact.length(k) > threshold ? 1 : 0;
-    exact.clear();
-  };
-  for (std::size_t start = 0; start < edges.size();) {
-    quick.clear();
-    std::size_t end = start;
-    for (; end < edges.size() && !quick.full(); ++end) quick.add({points[edges[end][0]], points[edges[end][1]]});
-    quick.estimate();
-    for (std::size_t i = start; i < end; ++i) {
-      const int k = static_cast<int>(i - start);
-      if (std::fabs(quick.length(k) - threshold) > quick.error(k) + margin) {
-        tagged[i] = quick.length(k) > threshold ? 1 : 0;
-        continue;
-      }
-      doubtful[exact.edge_count()] = i;
-      exact.add({points[edges[i][0]], points[edges[i][1]]});
-      if (exact.full()) decide_doubtful();
-    }
-    start = end;
-  }
-  decide_doubtful();
+int panel_count(double length, double panel) {
+  constexpr double kMost = 4096.0;
+  const double wanted = panel > 0.0 ? std::ceil(length / panel) : 1.0;
+  return wanted > 1.0 ? static_cast<int>(std::min(wanted, kMost)) : 1;
 }
 
 template <int Dim>
@@ -366,8 +311,6 @@ double default_panel(std::span<const Point<Dim>> points) {
   template double edge_length<D>(const MetricField<D>&, const Point<D>&, const Point<D>&, const LengthOptions&);       \
   template void edge_lengths<D>(const MetricField<D>&, std::span<const Point<D>>,                                      \
                                 std::span<const std::array<VertexId, 2>>, std::span<double>, const LengthOptions&);    \
-  template void tag_long_edges<D>(const MetricField<D>&, std::span<const Point<D>>,                                    \
-                                  std::span<const std::array<VertexId, 2>>, double, double, std::span<unsigned char>); \
   template double default_panel<D>(std::span<const Point<D>>);
 PILLOWMESH_INSTANTIATE(2)
 PILLOWMESH_INSTANTIATE(3)

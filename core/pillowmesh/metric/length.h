@@ -33,13 +33,16 @@ void edge_lengths(const MetricField<Dim>& field, std::span<const Point<Dim>> poi
                   std::span<const std::array<VertexId, 2>> edges, std::span<double> lengths,
                   const LengthOptions& options = {});
 
-/// tagged[i] = 1 where edge i is longer than `threshold`, else 0: looks only as closely as the decision needs, 7
-/// evaluations for most edges. Right for all lengths further than 1e-6 * threshold from the threshold.
+/// tagged[i] = 1 where edge i is longer than `threshold`, else 0: looks only as closely as the decision needs, at four
+/// even steps in each panel of most edges. Right for all lengths further than 1e-6 * threshold from the threshold.
 /// \param panel as in LengthOptions. \pre tagged.size() == edges.size()
 template <int Dim>
 void tag_long_edges(const MetricField<Dim>& field, std::span<const Point<Dim>> points,
                     std::span<const std::array<VertexId, 2>> edges, double threshold, double panel,
                     std::span<unsigned char> tagged);
+
+/// The number of panels of an edge of this length: 4096 at the most.
+int panel_count(double length, double panel);
 
 /// A panel that misses no feature wider than a thousandth of the domain: the diagonal of the bounding box / 256.
 template <int Dim>

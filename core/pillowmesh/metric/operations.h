@@ -13,16 +13,21 @@ inline double minimum(double a, double b) { return a < b ? a : b; }
 inline double maximum(double a, double b) { return a > b ? a : b; }
 inline double truth(bool b) { return b ? 1.0 : 0.0; }
 
+// Quotients are taken whether needed or not: with a branch around them loops do not vectorise.
+
 // atan2(0, 0) = 0, whose cosine is 1.
-inline double cosine_of_arc(double y, double x) {
-  const double square = x * x + y * y;
-  return square == 0.0 ? 1.0 : x / std::sqrt(square);
+inline double cosine_of_arc(double x, double radius) {
+  const double quotient = x / radius;
+  return radius == 0.0 ? 1.0 : quotient;
 }
-inline double sine_of_arc(double y, double x) {
-  const double square = x * x + y * y;
-  return square == 0.0 ? 0.0 : y / std::sqrt(square);
+inline double sine_of_arc(double y, double radius) {
+  const double quotient = y / radius;
+  return radius == 0.0 ? 0.0 : quotient;
 }
 
-inline double size_to_metric(double h) { return h > 0.0 ? 1.0 / (h * h) : std::numeric_limits<double>::quiet_NaN(); }
+inline double size_to_metric(double h) {
+  const double size = h > 0.0 ? h : std::numeric_limits<double>::quiet_NaN();
+  return 1.0 / (size * size);
+}
 
 }  // namespace pillowmesh::operations

@@ -33,9 +33,9 @@ int cost(Op op) {
     case Op::divide:
     case Op::square_root:
     case Op::size_to_metric:
-      return 4;
     case Op::cosine_of_arc:
     case Op::sine_of_arc:
+      return 4;
     case Op::floor:
       return 8;
     case Op::power:

@@ -1,5 +1,6 @@
 #include "pillowmesh/quality/report.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <vector>
@@ -29,14 +30,14 @@ bool walkable(const std::vector<Defect>& defects) {
   return true;
 }
 
+/// All edges in the order of KnownLengths.
 template <int Dim>
-void measure_lengths(const Mesh<Dim>& mesh, const MetricField<Dim>& field, const LengthOptions& options,
-                     Report& report) {
-  const std::vector<std::array<VertexId, 2>> edges = unique_edges(mesh);
-  std::vector<double> lengths(edges.size());
-  edge_lengths<Dim>(field, mesh.points, edges, lengths, options);
-  report.edges = static_cast<Index>(edges.size());
-  report.edge_length = statistics(lengths);
+std::vector<std::array<VertexId, 2>> sorted_edges(const Mesh<Dim>& mesh) {
+  std::vector<std::array<VertexId, 2>> edges = unique_edges(mesh);
+  for (auto& e : edges)
+    if (e[1] < e[0]) std::swap(e[0], e[1]);
+  std::sort(edges.begin(), edges.end());
+  return edges;
 }
 
 /// Of the anisotropic edges: for an edge of direction e, sin^2(2 phi) = 4 c (1 - c) with c the share of one eigenvector
@@ -58,7 +59,8 @@ double mean_misalignment(const Mesh<2>& mesh, const MetricField<2>& field) {
 }
 
 template <int Dim>
-void measure_cells(const Mesh<Dim>& mesh, const MetricField<Dim>& field, const LengthOptions& options, Report& report) {
+void measure_cells(const Mesh<Dim>& mesh, const MetricField<Dim>& field, const LengthOptions& options,
+                   const KnownLengths& known, Report& report) {
   std::vector<CellId> cells;
   for (CellId c = 0; c < mesh.cell_count(); ++c) {
     if (mesh.alive(c)) cells.push_back(c);
@@ -67,7 +69,7 @@ void measure_cells(const Mesh<Dim>& mesh, const MetricField<Dim>& field, const L
   std::vector<double> values(cells.size());
   {
     std::vector<double> integral(cells.size());
-    cell_shapes<Dim>(mesh, field, cells, values, integral, options);
+    cell_shapes<Dim>(mesh, field, cells, values, integral, options, known);
     report.shape = statistics(values);
     report.shape_integral = statistics(integral);
   }
@@ -91,8 +93,12 @@ Report measure(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
 
   LengthOptions options;
   options.panel = default_panel<Dim>(mesh.points);
-  measure_lengths(mesh, field, options, report);
-  measure_cells(mesh, field, options, report);
+  const std::vector<std::array<VertexId, 2>> edges = sorted_edges(mesh);
+  std::vector<double> lengths(edges.size());
+  edge_lengths<Dim>(field, mesh.points, edges, lengths, options);
+  report.edges = static_cast<Index>(edges.size());
+  report.edge_length = statistics(lengths);
+  measure_cells(mesh, field, options, {edges, lengths}, report);
   if constexpr (Dim == 2) report.misalignment = mean_misalignment(mesh, field);
   for (const unsigned char mark : irregular_vertices(mesh)) report.irregular_vertices += mark;
   report.complexity = complexity(mesh, field, VolumeOptions::for_panel(Dim, options.panel, Dim == 2 ? 1e-4 : 3e-4));

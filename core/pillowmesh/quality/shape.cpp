@@ -61,19 +61,34 @@ class SimplexEdges {
   static constexpr int kPerCell = SimplexPairs<Dim>::count;
 
   void measure(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
-               const LengthOptions& options) {
+               const LengthOptions& options, const KnownLengths& known) {
     keys_.clear();
     for (std::size_t i = 0; i < cells.size(); ++i) {
       for (int j = 0; j < kPerCell; ++j) keys_.push_back({key(mesh.cells[cells[i]], j), i * kPerCell + j});
     }
     std::sort(keys_.begin(), keys_.end());
     pairs_.clear();
+    unknown_.clear();
+    unique_.clear();
+    auto next = known.edges.begin();
     for (std::size_t i = 0; i < keys_.size(); ++i) {
       if (i > 0 && keys_[i][0] == keys_[i - 1][0]) continue;
-      pairs_.push_back({static_cast<VertexId>(keys_[i][0] >> 32), static_cast<VertexId>(keys_[i][0] & 0xffffffffu)});
+      const std::array<VertexId, 2> pair{static_cast<VertexId>(keys_[i][0] >> 32),
+                                         static_cast<VertexId>(keys_[i][0] & 0xffffffffu)};
+      const auto [from, to] = kPairs.pair[keys_[i][1] % kPerCell];
+      const bool diagonal = ((from ^ to) & ((from ^ to) - 1)) != 0;
+      if (!diagonal) next = std::lower_bound(next, known.edges.end(), pair);
+      if (!diagonal && next != known.edges.end() && *next == pair) {
+        unique_.push_back(known.lengths[next - known.edges.begin()]);
+        continue;
+      }
+      unknown_.push_back(unique_.size());
+      unique_.push_back(0.0);
+      pairs_.push_back(pair);
     }
-    unique_.resize(pairs_.size());
-    edge_lengths<Dim>(field, mesh.points, pairs_, unique_, options);
+    found_.resize(pairs_.size());
+    edge_lengths<Dim>(field, mesh.points, pairs_, found_, options);
+    for (std::size_t k = 0; k < unknown_.size(); ++k) unique_[unknown_[k]] = found_[k];
     lengths_.resize(keys_.size());
     std::size_t at = 0;
     for (std::size_t i = 0; i < keys_.size(); ++i) {
@@ -96,8 +111,9 @@ class SimplexEdges {
   }
 
   std::vector<std::array<std::uint64_t, 2>> keys_;  // vertex pair, place in lengths_
-  std::vector<std::array<VertexId, 2>> pairs_;
-  std::vector<double> unique_, lengths_;
+  std::vector<std::array<VertexId, 2>> pairs_;  // to be integrated
+  std::vector<std::size_t> unknown_;            // their places in unique_
+  std::vector<double> found_, unique_, lengths_;
 };
 
 // Volume of the flat simplex from the Gram matrix of the edges out of the corner; 0 if the matrix is not positive
@@ -157,8 +173,9 @@ double simplex_shape(const SimplexLengths<Dim>& lengths) {
 
 template <int Dim>
 void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
-                 std::span<double> flat, std::span<double> integral, const LengthOptions& options) {
-  constexpr std::size_t kChunk = 512;
+                 std::span<double> flat, std::span<double> integral, const LengthOptions& options,
+                 const KnownLengths& known) {
+  constexpr std::size_t kChunk = 1024;
   constexpr int kCorners = Cell<Dim>::corners;
   const VolumeOptions volume_options = VolumeOptions::for_panel(Dim, options.panel, Dim == 2 ? 1e-3 : 5e-3);
   SimplexEdges<Dim> edges;
@@ -166,7 +183,7 @@ void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span
   std::vector<double> volumes;
   for (std::size_t start = 0; start < cells.size(); start += kChunk) {
     const std::span<const CellId> chunk = cells.subspan(start, std::min(kChunk, cells.size() - start));
-    edges.measure(mesh, field, chunk, options);
+    edges.measure(mesh, field, chunk, options, known);
     if (!integral.empty()) {
       simplices.clear();
       for (const CellId c : chunk) {
@@ -193,7 +210,7 @@ void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span
   template double simplex_shape<D>(const SimplexLengths<D>&);                                                     \
   template double simplex_shape<D>(const SimplexLengths<D>&, double);                                             \
   template void cell_shapes<D>(const Mesh<D>&, const MetricField<D>&, std::span<const CellId>, std::span<double>, \
-                               std::span<double>, const LengthOptions&);
+                               std::span<double>, const LengthOptions&, const KnownLengths&);
 PILLOWMESH_INSTANTIATE(2)
 PILLOWMESH_INSTANTIATE(3)
 #undef PILLOWMESH_INSTANTIATE

@@ -26,12 +26,20 @@ double simplex_shape(const SimplexLengths<Dim>& lengths);
 template <int Dim>
 double simplex_shape(const SimplexLengths<Dim>& lengths, double volume);
 
+/// Lengths of edges that have been integrated already: the lower vertex first, in ascending order.
+struct KnownLengths {
+  std::span<const std::array<VertexId, 2>> edges;
+  std::span<const double> lengths;
+};
+
 /// eta of each of `cells`, the least over its 2^Dim corner simplices.
 /// \param flat out: with flat simplices. \pre flat.size() == cells.size()
 /// \param integral out: with the integral of sqrt(det M) over the corner simplices, to 0.1 %; may be empty.
 /// \param options how all edges and diagonals of the simplices are integrated.
+/// \param known lengths found with the same options: these edges are not integrated again.
 template <int Dim>
 void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
-                 std::span<double> flat, std::span<double> integral, const LengthOptions& options = {});
+                 std::span<double> flat, std::span<double> integral, const LengthOptions& options = {},
+                 const KnownLengths& known = {});
 
 }  // namespace pillowmesh

@@ -30,12 +30,17 @@ std::vector<unsigned char> irregular_vertices(const Mesh<Dim>& mesh) {
     }
     for (std::size_t v = 0; v < quads.size(); ++v) irregular[v] = boundary[v] == 0 && quads[v] != 0 && quads[v] != 4;
   } else {
+    std::vector<std::uint16_t> seen(mesh.cells.size(), 0);  // per cell: edges that a lower cell has
     for (CellId c = 0; c < mesh.cell_count(); ++c) {
       for (int e = 0; mesh.alive(c) && e < Cell<3>::edges; ++e) {
+        if ((seen[c] >> e) & 1) continue;
         const VertexId ends[2] = {mesh.cells[c][Cell<3>::edge_from(e)], mesh.cells[c][Cell<3>::edge_to(e)]};
         if (boundary[ends[0]] != 0 && boundary[ends[1]] != 0) continue;
         int hexes = 0;
-        for_each_cell_at_edge(mesh, CellEdge{c, e}, [&](CellId, int) { ++hexes; });
+        for_each_cell_at_edge(mesh, CellEdge{c, e}, [&](CellId n, int f) {
+          seen[n] |= static_cast<std::uint16_t>(1u << f);
+          ++hexes;
+        });
         if (hexes == 4) continue;
         for (const VertexId v : ends) irregular[v] = boundary[v] == 0 ? 1 : irregular[v];
       }

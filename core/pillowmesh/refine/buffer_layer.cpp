@@ -132,9 +132,11 @@ class Inserter {
 
   /// Boundary vertices take the support that their boundary facets ask for, now that the new cells have brought theirs. A
   /// vertex that the outside keeps may have come off the boundary, or to slide where its copy takes its place on the
-  /// curve or corner; a copy that has come to lie on the boundary starts at its origin. False if no entity fits.
+  /// curve or corner; a copy that has come to lie on the boundary starts at its origin. False if no entity fits. New
+  /// facets on the boundary have all their vertices from there: what came from inside need not be looked at.
   bool supports_hold() {
     for (const VertexId v : hull_.vertices) {
+      if (mesh_.support[v].dim == Dim) continue;
       VertexSupport found;
       if (!support_from_facets(v, v, found)) return false;
       const VertexSupport now = mesh_.support[v];
@@ -149,6 +151,7 @@ class Inserter {
     }
     for (std::size_t i = 0; i < layer_.origins.size(); ++i) {
       const VertexId v = layer_.first_vertex + static_cast<VertexId>(i), origin = layer_.origins[i];
+      if (plan_.copies[i].from_inside) continue;
       VertexSupport found;
       if (!support_from_facets(v, origin, found)) return false;
       if (found.dim == 0 && !leaves_corner(origin)) return false;
@@ -244,19 +247,20 @@ class Inserter {
   /// Corners as validate wants them and above the floor. In 3D inside too, unless the cell came inverted inside.
   [[nodiscard]] bool good(const Corners<Dim>& cell, const Corners<Dim>* before = nullptr) const {
     const auto at = [&](int k) -> const Point<Dim>& { return mesh_.points[cell[k]]; };
-    if (!(floor_ > 0 ? min_scaled_jacobian<Dim>(at) > floor_ : min_corner_jacobian<Dim>(at) > 0)) return false;
-    if constexpr (Dim == 3) {
-      if (min_lattice_jacobian(at) > 0) return true;
+    if constexpr (Dim == 2) {
+      return floor_ > 0 ? min_scaled_jacobian<2>(at) > floor_ : min_corner_jacobian<2>(at) > 0;
+    } else {
+      const LatticeJacobians found = lattice_jacobians(at);
+      if (!(floor_ > 0 ? found.scaled > floor_ : found.corner > 0)) return false;
+      if (found.lowest > 0) return true;
       const auto was = [&](int k) -> const Point<3>& { return mesh_.points[(*before)[k]]; };
       return before != nullptr && !(min_lattice_jacobian(was) > 0);
     }
-    return true;
   }
 
-  static bool same_vertices(FacetCorners<Dim> a, FacetCorners<Dim> b) {
-    std::sort(a.begin(), a.end());
-    std::sort(b.begin(), b.end());
-    return a == b;
+  /// \pre neither has a vertex twice
+  static bool same_vertices(const FacetCorners<Dim>& a, const FacetCorners<Dim>& b) {
+    return std::all_of(a.begin(), a.end(), [&](VertexId v) { return std::find(b.begin(), b.end(), v) != b.end(); });
   }
 
   /// No vertex twice, no two facets shared with one neighbour, twins that agree.

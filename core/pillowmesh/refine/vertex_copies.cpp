@@ -139,6 +139,7 @@ class VertexPlanner {
   Status copy(VertexId v, int component, bool inside) {
     VertexCopy<Dim> made;
     made.origin = v;
+    made.from_inside = mesh_.support[v].dim == Dim;
     made.cell = star_[component].cell;
     if (!find_support(v, component, made.support))
       return Status::illegal("a corner or feature of the domain would have to be duplicated at vertex " + std::to_string(v));

@@ -19,6 +19,7 @@ struct CornerChange {
 template <int Dim>
 struct VertexCopy {
   VertexId origin;
+  bool from_inside;  ///< the origin is not on the boundary
   Point<Dim> position;
   VertexSupport support;
   Index anchor;

@@ -94,10 +94,15 @@ double target_length(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
     return 0.955;
   } else {
     const auto edges = unique_edges(mesh);
+    std::vector<Point<Dim>> middles;
+    middles.reserve(edges.size());
+    for (const auto& [a, b] : edges) middles.emplace_back(0.5 * (mesh.points[a] + mesh.points[b]));
+    std::vector<SymTensor<Dim>> metrics(edges.size());
+    field.evaluate(middles, metrics);
     double sum = 0.0;
-    for (const auto& [a, b] : edges) {
-      const Point<Dim> e = mesh.points[b] - mesh.points[a];
-      sum += std::sqrt(dot(field.evaluate(Point<Dim>(0.5 * (mesh.points[a] + mesh.points[b]))), e, e));
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const Point<Dim> e = mesh.points[edges[i][1]] - mesh.points[edges[i][0]];
+      sum += std::sqrt(dot(metrics[i], e, e));
     }
     return std::min(std::sqrt(sum / static_cast<double>(edges.size())), 1.0);
   }
@@ -111,6 +116,7 @@ Relocator<Dim>::Relocator(Mesh<Dim>& mesh, const MetricField<Dim>& field, Reloca
       options_(options),
       star_(mesh, field.scaled(options.target_length > 0 ? options.target_length : target_length(mesh, field))) {
   active_.assign(mesh.points.size(), 0);
+  stuck_.assign(mesh.points.size(), 0);
   for (VertexId v = 0; v < mesh.vertex_count(); ++v)
     active_[v] = mesh.vertex_cell[v] != kNone && mesh.support[v].dim > 0;
 }
@@ -146,13 +152,16 @@ double Relocator<Dim>::relocate(VertexId v) {
   [[maybe_unused]] double guard = options_.quality_guard;
   if constexpr (Dim == 3)
     if (star_.below(guard)) guard = star_.lowest_scaled_jacobian();
-  double t = 1.0;
-  for (int attempt = 0; attempt < 5; ++attempt, t *= 0.45) {
+  double t = 1.0, shorter = 0.45;
+  for (int attempt = 0; attempt < 5; ++attempt, t *= shorter) {
     if (dot(metric, step, step) * t * t < 1e-2 * options_.rest * options_.rest) return 0.0;
     Index anchor = mesh_.anchor[v];
     const Point<Dim> to = slide(*mesh_.geometry, mesh_.support[v], anchor, Point<Dim>(from + t * step));
     star_.look_at(to);
     const double energy = star_.energy();
+    // Next to where the parabola through what is known has its minimum.
+    if constexpr (Dim == 3)
+      shorter = std::min(std::max(-0.5 * t * slope / (energy - d.value - t * slope), 0.2), 0.6);
     if (!(energy <= d.value + 1e-4 * t * slope)) continue;
     if constexpr (Dim == 3)
       if (star_.below(guard)) continue;
@@ -168,19 +177,26 @@ double Relocator<Dim>::relocate(VertexId v) {
 
 template <int Dim>
 SweepResult Relocator<Dim>::sweep() {
+  // In a metric with kinks many vertices come to lie where no step helps. To try there costs several times what a move
+  // costs elsewhere: a neighbour must have moved by this many times what else is enough.
+  constexpr double wakes_stuck = 10.0;
   SweepResult result;
   visited_.clear();
   for (VertexId v = 0; v < mesh_.vertex_count(); ++v) {
     if (!active_[v]) continue;
     active_[v] = 0;
     const double moved = relocate(v);
+    stuck_[v] = moved == 0.0;
     visited_.push_back({last_energy_, last_decrease_});
     result.energy += last_energy_;
     if (moved == 0.0) continue;
     ++result.moved;
     result.decrease += last_decrease_;
     if (moved < options_.rest) continue;
-    star_.for_each_dependent([&](VertexId w) { active_[w] = mesh_.support[w].dim > 0; });
+    const bool wakes_all = Dim == 2 || moved >= wakes_stuck * options_.rest;
+    star_.for_each_dependent([&](VertexId w) {
+      if (mesh_.support[w].dim > 0 && (wakes_all || !stuck_[w])) active_[w] = 1;
+    });
   }
   result.converged = result.moved == 0 || little_gained();
   return result;

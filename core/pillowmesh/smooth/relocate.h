@@ -56,6 +56,7 @@ class Relocator {
   RelocateOptions options_;
   Star star_;
   std::vector<std::uint8_t> active_;  ///< per vertex: may gain
+  std::vector<std::uint8_t> stuck_;   ///< per vertex: did not gain when last visited
   std::vector<std::array<double, 2>> visited_;  ///< in this sweep: energy, and what was gained
   double last_decrease_ = 0.0, last_energy_ = 0.0;
 };
