@@ -320,8 +320,9 @@ void tag_long_edges(const MetricField<Dim>& field, std::span<const Point<Dim>> p
                     std::span<unsigned char> tagged) {
   const LengthOptions options{.tolerance = 1e-7, .panel = panel};
   const double margin = 1e-7 * threshold;
-  Integrator<Dim> quick(field, options);
-  Integrator<Dim> exact(field, options);
+  const MetricField<Dim> approximated = field.approximated();
+  Integrator<Dim> quick(approximated, options);
+  Integrator<Dim> exact(approximated, options);
   std::array<std::size_t, Integrator<Dim>::kChunk> doubtful;
   const auto decide_doubtful = [&] {
     exact.integrate();

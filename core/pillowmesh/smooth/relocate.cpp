@@ -94,10 +94,22 @@ double target_length(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
     return 0.955;
   } else {
     const auto edges = unique_edges(mesh);
+    const MetricField<Dim> approximated = field.approximated();
+    std::array<Point<Dim>, kLanes> middles;
+    std::array<SymTensor<Dim>, kLanes> tensors;
     double sum = 0.0;
-    for (const auto& [a, b] : edges) {
-      const Point<Dim> e = mesh.points[b] - mesh.points[a];
-      sum += std::sqrt(dot(field.evaluate(Point<Dim>(0.5 * (mesh.points[a] + mesh.points[b]))), e, e));
+    for (std::size_t start = 0; start < edges.size(); start += kLanes) {
+      const std::size_t count = std::min<std::size_t>(kLanes, edges.size() - start);
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto& [a, b] = edges[start + i];
+        middles[i] = 0.5 * (mesh.points[a] + mesh.points[b]);
+      }
+      approximated.evaluate(std::span(middles).first(count), tensors);
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto& [a, b] = edges[start + i];
+        const Point<Dim> e = mesh.points[b] - mesh.points[a];
+        sum += std::sqrt(dot(tensors[i], e, e));
+      }
     }
     return std::min(std::sqrt(sum / static_cast<double>(edges.size())), 1.0);
   }
