@@ -69,7 +69,7 @@ TEST_CASE("sizes that grow linearly need no more pieces than there are at first"
 }
 
 TEST_CASE("where there is a piece it is as near to the metric as is said") {
-  for (const char* text : {"h1 = 0.02 + 0.1*y^2; h2 = 0.3; h3 = 0.1 + x*z; theta = x + y; phi = z",
+  for (const char* text : {"h1 = 0.03 + 0.03*y^2; h2 = 0.06; h3 = 0.05 + 0.1*x*z; theta = x; phi = 0.5*z",
                            "h = 0.02 + abs(x + 0.3*y - 0.6)"}) {
     INFO(text);
     const auto field = formula(text);
@@ -86,7 +86,7 @@ TEST_CASE("there is no piece across a jump, outside of the box, and where the me
   const auto jump = formula("h = if(x < 0.53, 0.5, 0.05)");
   const SizeOctree octree(jump, kLow, kHigh);
   std::vector<Point<3>> near;
-  for (int i = 0; i < 200; ++i) near.emplace_back(0.52 + 1e-4 * i, 0.4, 0.7);
+  for (int i = 0; i < 200; ++i) near.emplace_back(0.505 + 1e-4 * i, 0.4, 0.7);
   const Found found = look_up(octree, jump, near);
   CHECK(found.there == 0);
   CHECK(look_up(octree, jump, {{0.1, 0.2, 0.3}, {1.0, 0.0, 1.0}}).there == 2);
