@@ -14,6 +14,8 @@ export const eventKinds = [
   'open',
   'chord_collapse',
   'chord_split',
+  'boundary_collapse',
+  'boundary_open',
 ] as const;
 export type EventKind = (typeof eventKinds)[number];
 /** Changes of topology by full adaptation; the vertices around are relocated with them. */
@@ -23,6 +25,8 @@ export const operatorKinds: ReadonlySet<EventKind> = new Set([
   'open',
   'chord_collapse',
   'chord_split',
+  'boundary_collapse',
+  'boundary_open',
 ]);
 
 /** What changed. The arrays only grow; a dead cell has corners -1, and a new one may take its number. */

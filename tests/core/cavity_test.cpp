@@ -5,11 +5,13 @@
 #include "../catch.h"
 #include "checks.h"
 #include "meshes.h"
+#include "pillowmesh/coarsen/boundary_collapse.h"
 #include "pillowmesh/coarsen/chord_collapse.h"
 #include "pillowmesh/coarsen/diagonal_collapse.h"
 #include "pillowmesh/mesh/compact.h"
 #include "pillowmesh/mesh/ordered_star.h"
 #include "pillowmesh/mesh/validate.h"
+#include "pillowmesh/reconnect/boundary_open.h"
 #include "pillowmesh/reconnect/chord_split.h"
 #include "pillowmesh/reconnect/open.h"
 #include "pillowmesh/reconnect/rotate.h"
@@ -65,7 +67,7 @@ const char* plan_any(const Mesh<2>& mesh, std::mt19937& random, std::vector<std:
   marks.resize(mesh.cells.size(), 0);
   Chord chord;
   OrderedStar star;
-  switch (random() % 12) {
+  switch (random() % 15) {
     case 0:
       find_chord(mesh, c, side, marks, chord);
       return plan_chord_collapse(mesh, chord, cavity) ? "chord collapse" : nullptr;
@@ -83,6 +85,9 @@ const char* plan_any(const Mesh<2>& mesh, std::mt19937& random, std::vector<std:
       const int first = static_cast<int>(random() % star.count);
       return plan_opening(mesh, v, star, first, first + 2, cavity) ? "open" : nullptr;
     }
+    case 8:
+    case 9: return plan_boundary_collapse(mesh, around(mesh, c, side), cavity) ? "boundary collapse" : nullptr;
+    case 10: return plan_boundary_opening(mesh, c, side, random() % 2 == 1, cavity) ? "boundary opening" : nullptr;
     default: return plan_rotation(mesh, c, side, static_cast<int>(random() % 2), cavity) ? "rotate" : nullptr;
   }
 }
@@ -164,6 +169,43 @@ TEST_CASE("each operator changes the numbers of vertices and cells as its pictur
   CHECK((shorter.vertices == 20 && shorter.cells == 12));
   const Counts longer = apply([&](auto& m, auto& c) { return plan_chord_split(m, chord, c); });
   CHECK((longer.vertices == 30 && longer.cells == 20));
+  const Counts joined = apply([](auto& m, auto& c) { return plan_boundary_collapse(m, 2, c); });
+  CHECK((joined.vertices == 23 && joined.cells == 15));
+}
+
+TEST_CASE("a boundary opening takes a boundary collapse back") {
+  const Mesh<2> grid = make_grid<2>({4, 4}, Point<2>(0, 0), Point<2>(4, 4));
+  // In the middle of a side, and next to each end of it, where a corner stays.
+  for (const VertexId v : {1, 2, 3}) {
+    INFO("vertex " << v);
+    Mesh<2> mesh = grid;
+    Journal journal(mesh);
+    Cavity cavity;
+    std::vector<CellId> ids;
+    REQUIRE(plan_boundary_collapse(mesh, v, cavity));
+    REQUIRE(journal.apply(cavity, ids));
+    check_topology(mesh);
+    const VertexId keep = v == 1 ? 0 : (v == 3 ? 4 : 2);
+    CHECK(mesh.points[keep] == grid.points[keep]);
+    int place = place_of(mesh, ids[0], keep);
+    REQUIRE(place >= 0);
+    // The quad's two edges at `keep` have the row above it and the row beside it.
+    journal.begin();
+    CHECK_FALSE(plan_boundary_opening(mesh, ids[0], place + 2, false, cavity));  // inside
+    REQUIRE(plan_boundary_opening(mesh, ids[0], place, v == 3, cavity));
+    REQUIRE(journal.apply(cavity, ids));
+    check_topology(mesh);
+    compact(mesh);
+    CHECK(counts(mesh).vertices == 25);
+    CHECK(counts(mesh).edges == counts(grid).edges);
+    CHECK(counts(mesh).cells == 16);
+    CHECK(checks::distance_from_geometry(mesh) == 0.0);
+    OrderedStar star;
+    for (VertexId w = 0; w < mesh.vertex_count(); ++w) {
+      REQUIRE(find_star(mesh, w, star));
+      CHECK(star.count == (mesh.support[w].dim == 2 ? 4 : (mesh.support[w].dim == 1 ? 2 : 1)));
+    }
+  }
 }
 
 TEST_CASE("operators that the boundary forbids are refused") {
@@ -175,6 +217,21 @@ TEST_CASE("operators that the boundary forbids are refused") {
   Chord chord;
   find_chord(grid, 0, 3, marks, chord);  // along the two cells: its rungs join corners
   CHECK_FALSE(plan_chord_collapse(grid, chord, cavity));
+  CHECK_FALSE(plan_boundary_collapse(grid, 0, cavity));                 // a corner
+  CHECK_FALSE(plan_boundary_collapse(grid, 1, cavity));                 // between two corners
+  CHECK_FALSE(plan_boundary_opening(grid, 0, 1, false, cavity));        // no cell on one side of it
+  const Mesh<2> inside = make_grid<2>({4, 4}, Point<2>(0, 0), Point<2>(4, 4));
+  CHECK_FALSE(plan_boundary_collapse(inside, 12, cavity));
+}
+
+TEST_CASE("a hole of four edges is not closed by laying two of them on each other") {
+  MeshInput<2> in;
+  for (const double r : {1.0, 2.0})
+    for (const Point<2>& p : {Point<2>(r, 0), Point<2>(0, r), Point<2>(-r, 0), Point<2>(0, -r)}) in.points.push_back(p);
+  for (int i = 0; i < 4; ++i) in.cells.push_back({(i + 1) % 4, i, (i + 1) % 4 + 4, i + 4});
+  const Mesh<2> mesh = *make_mesh(in, {.corner_cosine = -0.5});
+  Cavity cavity;
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) CHECK_FALSE(plan_boundary_collapse(mesh, v, cavity));
 }
 
 TEST_CASE("a chord split on a curved boundary puts its new vertices on the curve's facets") {

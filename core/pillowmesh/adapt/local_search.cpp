@@ -1,7 +1,9 @@
 #include "pillowmesh/adapt/local_search.h"
 
+#include "pillowmesh/coarsen/boundary_collapse.h"
 #include "pillowmesh/coarsen/chord_collapse.h"
 #include "pillowmesh/coarsen/diagonal_collapse.h"
+#include "pillowmesh/reconnect/boundary_open.h"
 #include "pillowmesh/reconnect/chord_split.h"
 #include "pillowmesh/reconnect/open.h"
 #include "pillowmesh/reconnect/rotate.h"
@@ -56,6 +58,8 @@ bool LocalSearch::continue_pass(std::int64_t moves) {
     try_rotations(c);
     try_collapses(c);
     try_openings(c);
+    try_boundary_collapses(c);
+    try_boundary_openings(c);
     looked_.resize(mesh_.cells.size(), 0);
     looked_[c] = now;
   }
@@ -117,6 +121,46 @@ void LocalSearch::try_openings(CellId c) {
         opened = trial_.attempt(Operator::open, threshold() + kCellBonus);
         kept_ += opened ? 1 : 0;
       }
+  }
+}
+
+void LocalSearch::try_boundary_collapses(CellId c) {
+  for (int i = 0; i < 4 && mesh_.alive(c); ++i) {
+    // Each vertex at the cell after it along the boundary.
+    const VertexId v = around(mesh_, c, i);
+    OrderedStar star;
+    if (twin_of_side(mesh_, c, i) >= 0 || mesh_.support[v].dim != 1 || !find_star(mesh_, v, star) || star.count != 2) continue;
+    const VertexId a = around(mesh_, star.cell[1], star.place[1] + 3), b = around(mesh_, c, i + 1), p = around(mesh_, c, i + 3);
+    const int ideal = std::min(trial_.ideal(a), trial_.ideal(b)), n_a = trial_.valence(a), n_b = trial_.valence(b);
+    if (!worth_trying(square(n_a + n_b - 1 - ideal) - square(n_a - trial_.ideal(a)) - square(n_b - trial_.ideal(b)) +
+                      trial_.excess(p, -1)))
+      continue;
+    if (!plan_boundary_collapse(mesh_, v, trial_.cavity)) continue;
+    if (!trial_.attempt(Operator::boundary_collapse, threshold() - kCellBonus)) continue;
+    ++kept_;
+    return;
+  }
+}
+
+void LocalSearch::try_boundary_openings(CellId c) {
+  for (int i = 0; i < 4 && mesh_.alive(c); ++i) {
+    const VertexId v = around(mesh_, c, i);
+    const int dim = mesh_.support[v].dim;
+    OrderedStar star;
+    if (dim > 1 || !find_star(mesh_, v, star)) continue;
+    int at = 0;
+    while (star.cell[at] != c) ++at;
+    const int before = at + 1, after = star.count - at;
+    for (int turned = 0; turned < (dim == 0 ? 2 : 1); ++turned) {
+      const int ideal_a = dim == 0 && turned == 0 ? trial_.ideal(v) : 2, ideal_b = dim == 0 && turned == 1 ? trial_.ideal(v) : 2;
+      if (!worth_trying(square(after - ideal_a) + square(before - ideal_b) - square(star.count - trial_.ideal(v)) +
+                        trial_.excess(around(mesh_, c, i + 2), 1)))
+        continue;
+      if (!plan_boundary_opening(mesh_, c, i, turned == 1, trial_.cavity)) continue;
+      if (!trial_.attempt(Operator::boundary_open, threshold() + kCellBonus)) continue;
+      ++kept_;
+      return;
+    }
   }
 }
 

@@ -35,6 +35,8 @@ class LocalSearch {
   void try_rotations(CellId c);
   void try_collapses(CellId c);
   void try_openings(CellId c);
+  void try_boundary_collapses(CellId c);
+  void try_boundary_openings(CellId c);
 
   Mesh<2>& mesh_;
   Trial& trial_;

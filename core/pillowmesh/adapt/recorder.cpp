@@ -141,13 +141,14 @@ void Recorder<Dim>::change([[maybe_unused]] Operator op, [[maybe_unused]] const 
                            [[maybe_unused]] int iteration) {
   if constexpr (Dim == 2) {
     if (!on_) return;
-    static_assert(static_cast<int>(EventKind::chord_split) - static_cast<int>(EventKind::rotate) == kOperators - 1);
+    static_assert(static_cast<int>(EventKind::boundary_open) - static_cast<int>(EventKind::rotate) == kOperators - 1);
     const auto kind = static_cast<EventKind>(static_cast<int>(EventKind::rotate) + static_cast<int>(op));
     Event<2>& event = add(kind, mesh, iteration);
     MeshDelta<2>& delta = event.delta;
     delta.vertices_before = journal.vertices_before();
     delta.cells_before = journal.cells_before();
     // A vertex that a vertex was opened into leaves from there; others appear where they are.
+    const bool opened = op == Operator::open || op == Operator::boundary_open;
     Point<2> origin = mesh.points[cavity.around[0]];
     for (std::size_t i = 0; i < journal.vertices().size(); ++i)
       if (journal.vertices()[i] == cavity.around[0]) origin = journal.old_vertices()[i].point;
@@ -163,12 +164,12 @@ void Recorder<Dim>::change([[maybe_unused]] Operator op, [[maybe_unused]] const 
         // Its number may be taken later: going back must find it where it was.
         if (old.cell != kNone) add_vertex(v, old.point);
       } else if (old.cell == kNone)
-        add_vertex(v, op == Operator::open ? origin : mesh.points[v]);
+        add_vertex(v, opened ? origin : mesh.points[v]);
       else if (old.point != mesh.points[v])
         add_vertex(v, old.point);
     }
     for (VertexId v = delta.vertices_before; v < mesh.vertex_count(); ++v)
-      add_vertex(v, op == Operator::open ? origin : mesh.points[v]);
+      add_vertex(v, opened ? origin : mesh.points[v]);
     const auto add_cell = [&](CellId c, const Corners<2>& old_corners) {
       delta.cells.push_back(c);
       delta.old_corners.push_back(old_corners);

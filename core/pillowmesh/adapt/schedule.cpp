@@ -166,7 +166,8 @@ bool Schedule::step() {
 }
 
 void Schedule::count() {
-  constexpr const char* names[kOperators] = {"rotations", "collapses", "openings", "chord_collapses", "chord_splits"};
+  constexpr const char* names[kOperators] = {"rotations",    "collapses",          "openings",         "chord_collapses",
+                                               "chord_splits", "boundary_collapses", "boundary_openings"};
   std::int64_t tried = 0;
   for (int i = 0; i < kOperators; ++i) {
     operations_[names[i]] = trial_.counts[i].kept;

@@ -22,6 +22,8 @@ enum class EventKind : std::uint8_t {
   open,        ///< a vertex split along two edges
   chord_collapse,  ///< a whole row of quads removed
   chord_split,     ///< a whole row of quads doubled
+  boundary_collapse,  ///< two boundary edges laid on each other, the rows that ended there joined
+  boundary_open,      ///< the reverse: a boundary vertex split in three
 };
 
 /// "tags", "layer", ...

@@ -20,7 +20,9 @@ Patience patience(Operator op) {
   switch (op) {
     case Operator::rotate:
     case Operator::collapse: return {4, 1, 2, 0.6, 1.0};
-    case Operator::open: return {4, 1, 2, 1.0, 1.0};  // starts from a sliver
+    case Operator::open:
+    case Operator::boundary_collapse:
+    case Operator::boundary_open: return {4, 1, 2, 1.0, 1.0};  // starts from a sliver
     case Operator::chord_collapse:
     case Operator::chord_split: break;
   }

@@ -11,8 +11,8 @@
 
 namespace pillowmesh {
 
-enum class Operator : std::uint8_t { rotate, collapse, open, chord_collapse, chord_split };
-inline constexpr int kOperators = 5;
+enum class Operator : std::uint8_t { rotate, collapse, open, chord_collapse, chord_split, boundary_collapse, boundary_open };
+inline constexpr int kOperators = 7;
 
 class Trial {
  public:

@@ -113,24 +113,24 @@ void add_corner(const Point<2>& e1, const EdgeTerm& a, const EdgeSlope* da, cons
   sum.xx += 2.0 * c1 * gd[0] * gT[0] + c2 * gd[0] * gd[0] + c3 * h11;
   sum.xy += c1 * (gd[0] * gT[1] + gd[1] * gT[0]) + c2 * gd[0] * gd[1] + c3 * h12;
   sum.yy += 2.0 * c1 * gd[1] * gT[1] + c2 * gd[1] * gd[1] + c3 * h22;
-  if (weights.shape > 0.0) {
-    const double dot = g11 * e1[0] * e2[0] + g12 * (e1[0] * e2[1] + e1[1] * e2[0]) + g22 * e1[1] * e2[1];
-    const double mean = dot * std::sqrt(L1 * L2 / (q1 * q2)), D = T - mean, eta = 2.0 * raw / D;
-    const double lack = weights.shape_floor - eta;
-    if (lack > 0) {
-      sum.value += weights.shape * lack * lack;
-      // d eta = (2 d raw - eta dD) / D, the mean product taken with the metric frozen.
-      Point<2> gm = Point<2>::Zero();
-      const double ratio = std::sqrt(L1 * L2 / (q1 * q2));
-      if (da != nullptr) gm += (ratio * da->sign) * Point<2>(g11 * e2[0] + g12 * e2[1], g12 * e2[0] + g22 * e2[1]);
-      if (db != nullptr) gm += (ratio * db->sign) * Point<2>(g11 * e1[0] + g12 * e1[1], g12 * e1[0] + g22 * e1[1]);
-      const Point<2> ge = (1.0 / D) * ((2.0 / chain) * gdm - eta * (gT - gm));
-      sum.gradient -= 2.0 * weights.shape * lack * ge;
-      sum.xx += 2.0 * weights.shape * ge[0] * ge[0];
-      sum.xy += 2.0 * weights.shape * ge[0] * ge[1];
-      sum.yy += 2.0 * weights.shape * ge[1] * ge[1];
-    }
-  }
+}
+
+void add_shape(const EdgeTerm& a, const EdgeSlope* da, const EdgeTerm& b, const EdgeSlope* db, double diagonal,
+               const EdgeSlope* dd, const EnergyWeights& weights, QuadDerivatives& sum) {
+  const double L1 = a.l * a.l, L2 = b.l * b.l, D = diagonal * diagonal;
+  const double lack = weights.shape_floor * weights.shape_floor - squared_shape(L1, L2, D);
+  if (!(lack > 0)) return;
+  const double g = 0.5 * (L1 + L2 - D), i = 1.0 / (L1 + L2 + D), det = L1 * L2 - g * g;
+  const double common = 16.0 * i * i, spread = -2.0 * det * i;
+  Point<2> d = Point<2>::Zero();
+  if (da != nullptr) d += (common * (L2 - g + spread) * 2.0 * a.l) * da->dl;
+  if (db != nullptr) d += (common * (L1 - g + spread) * 2.0 * b.l) * db->dl;
+  if (dd != nullptr) d += (common * (g + spread) * 2.0 * diagonal) * dd->dl;
+  sum.value += weights.shape * lack * lack;
+  sum.gradient -= (2.0 * weights.shape * lack) * d;
+  sum.xx += 2.0 * weights.shape * d[0] * d[0];
+  sum.xy += 2.0 * weights.shape * d[0] * d[1];
+  sum.yy += 2.0 * weights.shape * d[1] * d[1];
 }
 
 Point<2> QuadDerivatives::step() const {

@@ -35,4 +35,8 @@ EdgeSlope edge_slope(const Point<2>& e, const EdgeTerm& term, const SizeJet& her
 void add_corner(const Point<2>& e1, const EdgeTerm& a, const EdgeSlope* da, const Point<2>& e2, const EdgeTerm& b,
                 const EdgeSlope* db, const Point<2>& dcross, const EnergyWeights& weights, QuadDerivatives& sum);
 
+/// Adds what the shape of a corner costs (`shape_energy`). `dd`: null where the opposite side does not move.
+void add_shape(const EdgeTerm& a, const EdgeSlope* da, const EdgeTerm& b, const EdgeSlope* db, double diagonal,
+               const EdgeSlope* dd, const EnergyWeights& weights, QuadDerivatives& sum);
+
 }  // namespace pillowmesh

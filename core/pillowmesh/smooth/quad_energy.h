@@ -49,7 +49,7 @@ struct EnergyWeights {
   double alignment = 0.0;  ///< of edges with the eigenvectors of M
   /// > 0: d is replaced by (d + sqrt(d^2 + 4 delta^2)) / 2, so that inverted corners have an energy too.
   double delta = 0.0;
-  /// Weight of sum max(0, shape_floor - eta)^2 over corners.
+  /// Weight of sum max(0, shape_floor^2 - eta^2)^2 over corners.
   double shape = 0.0;
   double shape_floor = 0.65;
 };
@@ -64,17 +64,22 @@ inline double corner_energy(const Point<2>& e1, const EdgeTerm& a, const Point<2
   const double q1 = g11 * e1[0] * e1[0] + 2.0 * g12 * e1[0] * e1[1] + g22 * e1[1] * e1[1];
   const double q2 = g11 * e2[0] * e2[0] + 2.0 * g12 * e2[0] * e2[1] + g22 * e2[1] * e2[1];
   const double L1 = a.l * a.l, L2 = b.l * b.l, T = L1 + L2;
-  const double area = cross * std::sqrt((g11 * g22 - g12 * g12) * (L1 * L2) / (q1 * q2));
-  double d = area;
+  double d = cross * std::sqrt((g11 * g22 - g12 * g12) * (L1 * L2) / (q1 * q2));
   if (weights.delta > 0.0) d = 0.5 * (d + std::sqrt(d * d + 4.0 * weights.delta * weights.delta));
-  double E = 0.25 * (d * (0.5 * T - 2.0 + 0.5 * weights.alignment * (a.s + b.s)) + 0.5 * T / d);
-  if (weights.shape > 0.0) {
-    const double dot = g11 * e1[0] * e2[0] + g12 * (e1[0] * e2[1] + e1[1] * e2[0]) + g22 * e1[1] * e2[1];
-    const double eta = 2.0 * area / (T - dot * std::sqrt(L1 * L2 / (q1 * q2)));
-    const double lack = weights.shape_floor - eta;
-    if (lack > 0) E += weights.shape * lack * lack;
-  }
-  return E;
+  return 0.25 * (d * (0.5 * T - 2.0 + 0.5 * weights.alignment * (a.s + b.s)) + 0.5 * T / d);
+}
+
+/// eta^2 of the flat triangle of a corner, from the squares of its metric edge lengths: L1, L2, and D opposite to the
+/// corner. Negative, and smooth, where there is no such triangle.
+inline double squared_shape(double L1, double L2, double D) {
+  const double g = 0.5 * (L1 + L2 - D), S = L1 + L2 + D;
+  return 16.0 * (L1 * L2 - g * g) / (S * S);
+}
+/// What a corner with these edges and this length opposite to it costs for its shape. The angle in the mean metric of
+/// both edges would miss what the metric does between them.
+inline double shape_energy(const EdgeTerm& a, const EdgeTerm& b, double diagonal, const EnergyWeights& weights) {
+  const double lack = weights.shape_floor * weights.shape_floor - squared_shape(a.l * a.l, b.l * b.l, diagonal * diagonal);
+  return lack > 0 ? weights.shape * lack * lack : 0.0;
 }
 
 }  // namespace pillowmesh

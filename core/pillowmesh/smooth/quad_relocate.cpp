@@ -111,7 +111,17 @@ void QuadRelocator::add_up(CellId c) {
   double sum = 0.0;
   for (int i = 0; i < 4; ++i)
     sum += corner_energy(p[(i + 1) & 3] - p[i], edges_[c][i], p[(i + 3) & 3] - p[i], edges_[c][(i + 3) & 3], weights_);
+  if (shaped()) {
+    std::array<SizeTensor, 4> H;
+    for (int i = 0; i < 4; ++i) H[i] = size_[around(mesh_, c, i)];
+    const std::array<double, 2> across{diagonal(p[1], H[1], p[3], H[3]), diagonal(p[0], H[0], p[2], H[2])};
+    for (int i = 0; i < 4; ++i) sum += shape_energy(edges_[c][i], edges_[c][(i + 3) & 3], across[i & 1], weights_);
+  }
   energy_[c] = sum;
+}
+
+double QuadRelocator::diagonal(const Point<2>& p, const SizeTensor& P, const Point<2>& q, const SizeTensor& Q) {
+  return edge_term(background_, p, P, q, Q, false).l;
 }
 
 void QuadRelocator::refresh(CellId c) {
@@ -152,10 +162,17 @@ bool QuadRelocator::collect(VertexId v) {
     Wedge& w = wedges_[k];
     w.cell = c;
     w.place = i;
-    w.o = mesh_.points[around(mesh_, c, i + 2)];
+    const VertexId o = around(mesh_, c, i + 2);
+    w.o = mesh_.points[o];
+    w.H = size_[o];
     w.far1 = edges_[c][(i + 1) & 3];
     w.far2 = edges_[c][(i + 2) & 3];
   }
+  if (shaped())
+    for (int k = 0; k < star_.count; ++k) {
+      const Spoke &a = spokes_[k], &b = spokes_[k + 1 == spoke_count_ ? 0 : k + 1];
+      wedges_[k].diagonal = diagonal(a.q, a.H, b.q, b.H);
+    }
   return true;
 }
 
@@ -171,6 +188,11 @@ double QuadRelocator::try_at(const Point<2>& x, double limit) {
     w.energy = corner_energy(a.q - x, a.next, b.q - x, b.next, weights_) +
                corner_energy(w.o - a.q, w.far1, x - a.q, a.next, weights_) +
                corner_energy(x - b.q, b.next, w.o - b.q, w.far2, weights_);
+    if (shaped()) {
+      const double out = diagonal(x, size_at_, w.o, w.H);
+      w.energy += shape_energy(a.next, b.next, w.diagonal, weights_) + shape_energy(w.far1, a.next, out, weights_) +
+                  shape_energy(b.next, w.far2, out, weights_);
+    }
     sum += w.energy;
     if (!(sum < limit)) break;
   }
@@ -206,6 +228,12 @@ bool QuadRelocator::derivatives(VertexId v, Derivatives& sum) {
     forth.sign = 1.0;
     const Point<2> g = w.o - b.q;
     add_corner(x - b.q, b.now, &forth, g, w.far2, nullptr, Point<2>(g[1], -g[0]), weights_, sum);
+    if (!shaped()) continue;
+    const EdgeTerm out = edge_term(background_, x, here.H, w.o, w.H, false);
+    const EdgeSlope dout = edge_slope(w.o - x, out, here, background_.jet(0.5 * (x + w.o)), w.H, {});
+    add_shape(a.now, &slope[k], b.now, &slope[n], w.diagonal, nullptr, weights_, sum);
+    add_shape(w.far1, nullptr, a.now, &slope[k], out.l, &dout, weights_, sum);
+    add_shape(b.now, &slope[n], w.far2, nullptr, out.l, &dout, weights_, sum);
   }
 
   return true;
@@ -246,6 +274,7 @@ double QuadRelocator::relocate(VertexId v) {
       edges_[w.cell][(w.place + 3) & 3] = spokes_[n].next;
       const Spoke &a = spokes_[k], &b = spokes_[n];
       energy_[w.cell] = w.energy + corner_energy(b.q - w.o, w.far2, a.q - w.o, w.far1, weights_);
+      if (shaped()) energy_[w.cell] += shape_energy(w.far2, w.far1, w.diagonal, weights_);
     }
     return before - after;
   }

@@ -71,11 +71,15 @@ class QuadRelocator {
     CellId cell;
     int place;
     Point<2> o;       ///< the opposite vertex
+    SizeTensor H;     ///< there
+    double diagonal;  ///< from spoke to spoke, where shapes count
     EdgeTerm far1, far2;  ///< next -> opposite, opposite -> previous
     double energy;        ///< of the three corners that change, where the vertex was tried last
   };
 
   bool collect(VertexId v);
+  [[nodiscard]] bool shaped() const { return weights_.shape > 0.0; }
+  [[nodiscard]] double diagonal(const Point<2>& p, const SizeTensor& P, const Point<2>& q, const SizeTensor& Q);
   [[nodiscard]] double try_at(const Point<2>& x, double limit);
   void touch_cell(CellId c);
   void touch_vertex(VertexId v);

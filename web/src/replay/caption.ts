@@ -62,6 +62,10 @@ export function captionOf(event: MeshEvent | undefined, mesh: ReplayMesh, thresh
       return `A whole row is removed, from boundary to boundary or all around; ${now()} are left.`;
     case 'chord_split':
       return `A whole row is doubled, from boundary to boundary or all around; that gives ${now()}.`;
+    case 'boundary_collapse':
+      return `Two boundary edges are laid on each other, and the rows that ended there become one; ${now()} are left.`;
+    case 'boundary_open':
+      return `A boundary vertex is split in three, and a row that turned inside ends there twice; that gives ${now()}.`;
     case 'iteration':
       return `Iteration ${iteration} ends with ${now()}${longest(value)}.`;
   }

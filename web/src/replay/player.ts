@@ -18,6 +18,8 @@ const dwell: Record<EventKind, number> = {
   open: 500,
   chord_collapse: 1100,
   chord_split: 1100,
+  boundary_collapse: 500,
+  boundary_open: 500,
 };
 const longestAnimation = 520;
 /** Events that `auto` shows at pace 1 before it speeds up, by what factor each, and to what pace. */
