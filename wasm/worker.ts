@@ -124,7 +124,7 @@ export class Server {
           if (!(error instanceof CrashError)) opened.session.destroy();
           throw error;
         }
-        this.replace({ ...opened, specification: { metric, options: {} } });
+        this.replace({ ...opened, specification: { metric: metric ?? opened.metric, options: {} } });
         return opened.session.mesh();
       }
       case 'metric':
