@@ -12,7 +12,7 @@ endif()
 # -Oz at the link keeps it from undoing the rest; the hot code keeps the speed of the -O2 that it is compiled with.
 string(JOIN "|" hot
   "refine/(balance|buffer_layer|edge_tags|hull|layer|tag_inheritance|untangle|vertex_copies)" "smooth/" "quality/shape"
-  "metric/(background|program|field|length|volume)" "adapt/tagging" "mesh/(foot|slide|topology)")
+  "metric/(background|gradation|intersection|program|field|length|volume)" "adapt/tagging" "mesh/(foot|slide|topology)")
 foreach(source ${core_sources} ${wasm_sources})
   if(source MATCHES "pillowmesh/(${hot})|third_party")
     set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -O2 -flto)

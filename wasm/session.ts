@@ -75,21 +75,22 @@ export interface Opened {
   core: Core;
   session: Session;
   source: Loadable;
-  /** The metric of a case that has no formula; it has been set. */
+  /** What was given, or is made for a case that has no formula; it has been set. */
   metric?: MetricSpec;
 }
 
 /**
- * A session with the mesh loaded, on the core of its dimension. A file tells its dimension when it is read. Of anything
+ * A session with the mesh loaded, and its metric if one is given, on the core of its dimension. A file tells its dimension when it is read. Of anything
  * else the core for 2D is asked first, and that for 3D when it answers that the mesh is none of its own.
  */
-export async function openSession(modules: Modules, mesh: MeshSource): Promise<Opened> {
+export async function openSession(modules: Modules, mesh: MeshSource, given?: MetricSpec): Promise<Opened> {
   const opened = await openMeshAlone(modules, mesh);
   const { core, session } = opened;
-  if (mesh.kind !== 'case' || cases(core).some(({ name, formula }) => name === mesh.name && formula)) return opened;
+  const hasOwn = mesh.kind !== 'case' || cases(core).some(({ name, formula }) => name === mesh.name && formula);
   try {
-    const metric = { nodal: makeMetric(await modules.metrics(), session.input(), { image: 'portrait' }) };
-    session.setMetric(metric);
+    const metric =
+      given ?? (hasOwn ? undefined : { nodal: makeMetric(await modules.metrics(), session.input(), { image: 'portrait' }) });
+    if (metric) session.setMetric(metric);
     return { ...opened, metric };
   } catch (error) {
     if (!(error instanceof CrashError)) session.destroy();
