@@ -128,7 +128,7 @@ describe('the worker', () => {
     const given = await bench.call('open', { source: { kind: 'case', name: 'riemann' }, metric: { formula: 'h = 0.1' } });
     expect(given.cells.length).toBe(mesh.cells.length);
     expect(JSON.parse(await bench.call('report', {})).complexity).toBeCloseTo(80, 6);
-  });
+  }, 300_000); // the portrait's metric takes seconds, on a busy machine many
 
   test('makes a metric from dabs for the mesh that was opened, and adapts to it', async () => {
     const bench = new Bench();
