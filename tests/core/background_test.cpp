@@ -91,10 +91,4 @@ TEST_CASE("sizes stay positive where the metric jumps, and points outside of the
     REQUIRE(H.a * H.c - H.b * H.b > 0);
   }
   CHECK(background.at(Point<2>(7, 0.5)).a == background.at(Point<2>(1, 0.5)).a);
-  // Wherever in its leaf the jump lies: a parabola through 1, .001, .001 would fall below 0.
-  for (const char* text : {"h = if(x < 0.30006, 1, 0.001)", "h = if(x < 0.30012, 1, 0.001)", "h = if(x > 0.30018, 1, 0.001)"}) {
-    INFO(text);
-    Background jump(formula(text), Point<2>(0, 0), Point<2>(1, 1));
-    for (int i = 0; i <= 1000; ++i) REQUIRE(jump.at(Point<2>(0.2995 + 1e-6 * i, 0.5)).a > 0);
-  }
 }
