@@ -80,7 +80,6 @@ void evaluate_stars(benchmark::State& state, const char* name, bool from_backgro
       star[k + 1] = (star[0] + (k % 2 ? 0.04 : -0.04) * Point<3>::Unit(k / 2)).cwiseMax(low).cwiseMin(high);
   }
   std::array<SymTensor<3>, 7> tensors;
-  std::array<SymTensor<3>, 7> tensors;
   for (auto _ : state) {
     for (const auto& star : stars) {
       field.evaluate(star, tensors);
