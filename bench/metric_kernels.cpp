@@ -62,6 +62,37 @@ BENCHMARK_CAPTURE(look_up_in_loop, iso2d_background, "iso2d", true);
 BENCHMARK_CAPTURE(look_up_in_loop, circle2d_formula, "circle2d", false);
 BENCHMARK_CAPTURE(look_up_in_loop, circle2d_background, "circle2d", true);
 
+/// What the smoother of hexahedra asks: a vertex and the middles of its edges at once (smooth/hex_star.cpp), of the formula
+/// or of a background of 47 x 47 x 47 vertices.
+void evaluate_stars(benchmark::State& state, const char* name, bool from_background) {
+  const auto formula = *MetricField<3>::from_formula(find_case(name)->formula);
+  const Point<3> low(0, 0, 0), high(1, 1, 1);
+  const auto field =
+      (from_background ? *look_up(sample_at_vertices(formula, make_grid<3>({46, 46, 46}, low, high))) : formula)
+          .approximated();
+  // Vertices away from those of the background, as those of an adapted mesh are.
+  const auto mesh = make_grid<3>({11, 12, 13}, low, high);
+  std::vector<std::array<Point<3>, 7>> stars;
+  for (const auto& p : mesh.points) {
+    auto& star = stars.emplace_back();
+    star[0] = (p + Point<3>(0.003, 0.004, 0.005)).cwiseMin(high);
+    for (int k = 0; k < 6; ++k)
+      star[k + 1] = (star[0] + (k % 2 ? 0.04 : -0.04) * Point<3>::Unit(k / 2)).cwiseMax(low).cwiseMin(high);
+  }
+  std::array<SymTensor<3>, 7> tensors;
+  for (auto _ : state) {
+    for (const auto& star : stars) {
+      field.evaluate(star, tensors);
+      benchmark::DoNotOptimize(tensors.data());
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(7 * stars.size()));
+}
+BENCHMARK_CAPTURE(evaluate_stars, linear3d_formula, "linear3d", false);
+BENCHMARK_CAPTURE(evaluate_stars, linear3d_background, "linear3d", true);
+BENCHMARK_CAPTURE(evaluate_stars, sphere3d_formula, "sphere3d", false);
+BENCHMARK_CAPTURE(evaluate_stars, sphere3d_background, "sphere3d", true);
+
 void measure_edges(benchmark::State& state, const char* name) {
   const auto field = field_of(name);
   const auto mesh = fine_mesh_of(name, static_cast<int>(state.range(0)));

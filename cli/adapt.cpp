@@ -11,6 +11,7 @@
 #include "cli/process.h"
 #include "cli/terminal.h"
 #include "pillowmesh/adapt/adapter.h"
+#include "pillowmesh/mesh/interfaces.h"
 #include "pillowmesh/quality/report.h"
 
 namespace pillowmesh::cli {
@@ -100,6 +101,11 @@ int adapt_mesh(Mesh<Dim> mesh, const AdaptFlags& flags, double read_seconds) {
   StepFiles steps(flags.steps);
   if (Status s = steps.prepare(); !s.ok()) return fail(s);
 
+  if (const Index facets = free_interface_facets(mesh); facets > 0 && !flags.quiet)
+    std::fprintf(stderr,
+                 "pillowmesh: note: regions meet at %lld %s that are not frozen; the interface may move "
+                 "(--freeze GROUP keeps one, see docs/geometry.md)\n",
+                 static_cast<long long>(facets), Dim == 2 ? "edges" : "facets");
   const bool print = !flags.quiet && flags.report != "-";
   Clock clock;
   Report initial;
@@ -127,7 +133,7 @@ int adapt_mesh(Mesh<Dim> mesh, const AdaptFlags& flags, double read_seconds) {
   const Status& outcome = adapter.outcome();
   if (outcome.code == StatusCode::bad_input || outcome.code == StatusCode::usage) return fail(outcome);
 
-  std::string carried;
+  std::vector<CarriedField> carried;
   if (!flags.output.empty())
     if (Status s = write_with_fields(adapter.mesh(), *solution, flags, carried); !s.ok()) return fail(s);
   const double write_seconds = clock.lap();
@@ -140,10 +146,11 @@ int adapt_mesh(Mesh<Dim> mesh, const AdaptFlags& flags, double read_seconds) {
   report.seconds["write"] = write_seconds;
   report.seconds["total"] = read_seconds + measure_seconds + adapt_seconds + write_seconds;
   report.operations = adapter.operations();
+  report.fields = carried;
   report.peak_memory_bytes = peak_memory();
   if (Status s = write_report(report, flags.report); !s.ok()) return fail(s);
   if (print) std::fputs(table(report, &initial).c_str(), stdout);
-  if (print && !carried.empty()) std::printf("%s\n", carried.c_str());
+  if (print && !carried.empty()) std::printf("%s\n", sentence(carried).c_str());
   if (!outcome.ok()) return fail(outcome);
   if (target > 0.0 && std::fabs(live_cells(adapter.mesh()) / target - 1.0) > 0.05)
     return fail(Status::limit_not_met("the mesh has " + std::to_string(report.cells) +

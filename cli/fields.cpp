@@ -49,7 +49,7 @@ SolFile to_sol(const Mesh<Dim>& mesh, std::vector<FieldArray> fields) {
   return sol;
 }
 
-std::string count(std::size_t n, const char* what) {
+std::string count(std::int64_t n, const char* what) {
   return std::to_string(n) + " field" + (n == 1 ? "" : "s") + " of " + what;
 }
 
@@ -78,21 +78,30 @@ Expected<std::optional<AnySolution>> load_fields(const AdaptFlags& flags) {
 
 template <int Dim>
 Status write_with_fields(const Mesh<Dim>& mesh, const std::optional<AnySolution>& from, const AdaptFlags& flags,
-                         std::string& note) {
+                         std::vector<CarriedField>& carried) {
   if (!from) return write_mesh_file(mesh, flags.output, flags.write);
   auto fields = carry(std::get<Solution<Dim>>(*from), mesh);
   if (!fields) return Status::bad_input("the fields cannot be carried: " + fields.status().message);
-  const auto of_cells = static_cast<std::size_t>(
-      std::count_if(fields->begin(), fields->end(), [](const FieldArray& f) { return f.of_cells; }));
-  note = "carried " + count(fields->size() - of_cells, "points") + " (multilinear interpolation), " +
-         count(of_cells, "cells") + " (means)";
+  for (const FieldArray& f : *fields) carried.push_back({f.name, f.of_cells, std::string(carried_how(f))});
   if (is_vtk(flags.output)) return write_mesh_file(mesh, flags.output, flags.write, std::move(*fields));
   if (Status s = write_mesh_file(mesh, flags.output, flags.write); !s.ok()) return s;
   const std::string beside = std::filesystem::path(flags.output).replace_extension(".sol").string();
   return write_text_file(write_sol(to_sol(mesh, std::move(*fields)), beside), beside);
 }
 
-template Status write_with_fields(const Mesh<2>&, const std::optional<AnySolution>&, const AdaptFlags&, std::string&);
-template Status write_with_fields(const Mesh<3>&, const std::optional<AnySolution>&, const AdaptFlags&, std::string&);
+std::string sentence(const std::vector<CarriedField>& carried) {
+  if (carried.empty()) return "";
+  const auto of_cells = std::count_if(carried.begin(), carried.end(), [](const CarriedField& f) { return f.of_cells; });
+  const auto of_points = static_cast<std::int64_t>(carried.size()) - of_cells;
+  return "carried " + count(of_points, "points") + " (multilinear interpolation), " + count(of_cells, "cells") +
+         " (means)";
+}
+
+#define PILLOWMESH_INSTANTIATE(Dim)                                                                                \
+  template Status write_with_fields(const Mesh<Dim>&, const std::optional<AnySolution>&, const AdaptFlags&,        \
+                                    std::vector<CarriedField>&);
+PILLOWMESH_INSTANTIATE(2)
+PILLOWMESH_INSTANTIATE(3)
+#undef PILLOWMESH_INSTANTIATE
 
 }  // namespace pillowmesh::cli

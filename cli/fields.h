@@ -3,9 +3,11 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/commands.h"
 #include "pillowmesh/io/solution_file.h"
+#include "pillowmesh/quality/report.h"
 
 namespace pillowmesh::cli {
 
@@ -14,9 +16,12 @@ namespace pillowmesh::cli {
 Expected<std::optional<AnySolution>> load_fields(const AdaptFlags& flags);
 
 /// Writes the mesh to flags.output with the fields carried to it: into a VTK file; else those of --solution to a .sol of
-/// the same name. `note` says what was done, for the table; empty if nothing.
+/// the same name. `carried` says what was done, for the report.
 template <int Dim>
 Status write_with_fields(const Mesh<Dim>& mesh, const std::optional<AnySolution>& from, const AdaptFlags& flags,
-                         std::string& note);
+                         std::vector<CarriedField>& carried);
+
+/// "carried 2 fields of points (multilinear interpolation)", for the terminal; empty if there are none.
+std::string sentence(const std::vector<CarriedField>& carried);
 
 }  // namespace pillowmesh::cli

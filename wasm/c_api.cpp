@@ -117,7 +117,7 @@ void append_quoted(std::string_view text, std::string& json) {
 
 std::string cases_as_json() {
   std::string json = "[";
-  for (const Case& c : gallery()) {
+  const auto append = [&](const Case& c) {
     if (json.size() > 1) json += ",";
     json += "\n{\"name\": ";
     append_quoted(c.name, json);
@@ -129,7 +129,9 @@ std::string cases_as_json() {
       append_quoted(text, json);
     }
     json += "}";
-  }
+  };
+  for (const Case& c : gallery()) append(c);
+  append(portrait_case());
   return json + "\n]\n";
 }
 
@@ -224,11 +226,12 @@ pm_status pm_load_grid(pm_session* session, const char* spec, uint32_t size) {
 }
 
 pm_status pm_load_case(pm_session* session, const char* name, uint32_t size) {
-  const Case* found = find_case({name, size});
+  const std::string_view wanted(name, size);
+  const Case* found = wanted == portrait_case().name ? &portrait_case() : find_case(wanted);
   if (found == nullptr)
     return session->finish(Status::usage("There is no case named \"" + std::string(name, size) + "\"."));
   const pm_status status = session->load(parse_primitive(found->mesh, session->options.boundary.freeze));
-  if (status != PM_OK) return status;
+  if (status != PM_OK || found->formula.empty()) return status;
   return pm_set_metric(session, found->formula.data(), static_cast<uint32_t>(found->formula.size()), 1.0);
 }
 

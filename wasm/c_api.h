@@ -41,7 +41,8 @@ PM_API(pm_free) void pm_free(void* memory);
 
 /// The library's version, e.g. "0.1.0".
 PM_API(pm_version) const char* pm_version(void);
-/// The gallery as a JSON array of {name, dim, title, mesh, formula, source}.
+/// The cases as a JSON array of {name, dim, title, mesh, formula, source}. One without a formula, riemann, has its metric
+/// from pm_metrics_portrait (metrics_api.h).
 PM_API(pm_cases) const char* pm_cases(void);
 
 PM_API(pm_create) pm_session* pm_create(void);
@@ -63,7 +64,7 @@ PM_API(pm_load_input)
 pm_status pm_load_input(pm_session* session, const char* name, uint32_t name_size, const char* bytes, uint32_t size);
 /// "grid:7,9:0,7,0,9", "ogrid:4,2:1", ...: see parse_primitive in mesh/primitives.h.
 PM_API(pm_load_grid) pm_status pm_load_grid(pm_session* session, const char* spec, uint32_t size);
-/// A case of the gallery: its mesh and its metric.
+/// A case: its mesh, and its metric where that is a formula.
 PM_API(pm_load_case) pm_status pm_load_case(pm_session* session, const char* name, uint32_t size);
 /// The metric from a formula, its sizes multiplied by `scale`. A mesh must be loaded: it says the dimension. The metric
 /// is checked at the mesh's vertices.

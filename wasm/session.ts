@@ -1,6 +1,7 @@
 // A typed session over the C interface: a mesh, a metric, options, and the run made of them.
 import { readFile } from './files.ts';
 import { CrashError, type Core, type Exports, type Modules } from './loader.ts';
+import { makeMetric } from './metrics.ts';
 import { CoreError, guard, pass, readBytes, readText, statusNames, type Argument, type StatusName } from './memory.ts';
 
 export { CoreError, statusNames, type StatusName } from './memory.ts';
@@ -13,6 +14,7 @@ export interface Case {
   dim: number;
   title: string;
   mesh: string;
+  /** Empty for riemann, whose metric is made of a picture. */
   formula: string;
   source: string;
 }
@@ -73,13 +75,30 @@ export interface Opened {
   core: Core;
   session: Session;
   source: Loadable;
+  /** What was given, or is made for a case that has no formula; it has been set. */
+  metric?: MetricSpec;
 }
 
 /**
- * A session with the mesh loaded, on the core of its dimension. A file tells its dimension when it is read. Of anything
+ * A session with the mesh loaded, and its metric if one is given, on the core of its dimension. A file tells its dimension when it is read. Of anything
  * else the core for 2D is asked first, and that for 3D when it answers that the mesh is none of its own.
  */
-export async function openSession(modules: Modules, mesh: MeshSource): Promise<Opened> {
+export async function openSession(modules: Modules, mesh: MeshSource, given?: MetricSpec): Promise<Opened> {
+  const opened = await openMeshAlone(modules, mesh);
+  const { core, session } = opened;
+  const hasOwn = mesh.kind !== 'case' || cases(core).some(({ name, formula }) => name === mesh.name && formula);
+  try {
+    const metric =
+      given ?? (hasOwn ? undefined : { nodal: makeMetric(await modules.metrics(), session.input(), { image: 'portrait' }) });
+    if (metric) session.setMetric(metric);
+    return { ...opened, metric };
+  } catch (error) {
+    if (!(error instanceof CrashError)) session.destroy();
+    throw error;
+  }
+}
+
+async function openMeshAlone(modules: Modules, mesh: MeshSource): Promise<Opened> {
   if (mesh.kind === 'file') {
     const { dim, bytes } = readFile(await modules.files(), mesh.name, mesh.bytes);
     return loaded(await modules.core(dim), { kind: 'input', name: mesh.name, bytes });
@@ -103,10 +122,11 @@ export function forOtherCore(error: unknown): boolean {
  */
 export async function beginRun(modules: Modules, opened: Opened, specification: Specification): Promise<Opened> {
   const begun = (core: Core): Opened => {
-    const next = prepared(core, opened.source, specification);
+    const { source, metric } = opened;
+    const next = prepared(core, source, { ...specification, metric: specification.metric ?? metric });
     try {
       next.session.begin();
-      return next;
+      return { ...next, metric };
     } catch (error) {
       if (!(error instanceof CrashError)) next.session.destroy();
       throw error;

@@ -3,7 +3,7 @@
 // same slices run in the page itself (pool.ts).
 import { decodeEvents } from './events.ts';
 import { writeFile } from './files.ts';
-import { CrashError, LoadError, modulesFrom, type Modules } from './loader.ts';
+import { LoadError, modulesFrom, type Modules } from './loader.ts';
 import { makeMetric } from './metrics.ts';
 import type { CallName, Calls, Failure, Goodbye, Hello, Reply, Request, RunResult, Setup } from './protocol.ts';
 import {
@@ -117,14 +117,8 @@ export class Server {
       case 'open': {
         const { source, metric } = request.args;
         this.cancel();
-        const opened = await openSession(this.modules, source);
-        try {
-          if (metric) opened.session.setMetric(metric);
-        } catch (error) {
-          if (!(error instanceof CrashError)) opened.session.destroy();
-          throw error;
-        }
-        this.replace({ ...opened, specification: { metric, options: {} } });
+        const opened = await openSession(this.modules, source, metric);
+        this.replace({ ...opened, specification: { metric: opened.metric, options: {} } });
         return opened.session.mesh();
       }
       case 'metric':

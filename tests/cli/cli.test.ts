@@ -498,8 +498,10 @@ describe('boundaries and fields', () => {
       '# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 1 1 0 0 1 0\n' +
         'CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\nPOINT_DATA 4\nSCALARS heat double 1\nLOOKUP_TABLE default\n0 1 3 2\n',
     );
-    const told = ok('adapt', square, '--metric', 'h = 0.3', '-o', file('field-out.vtu'));
+    const [out, report] = [file('field-out.vtu'), file('field.json')];
+    const told = ok('adapt', square, '--metric', 'h = 0.3', '-o', out, '--report', report);
     expect(told).toContain('carried 1 field of points');
+    expect(JSON.parse(readFileSync(report, 'utf8')).fields.points.heat).toMatch(/multilinear.*h\^2\/8/);
     expect(readFileSync(file('field-out.vtu'), 'utf8')).toContain('Name="heat"');
     ok('adapt', square, '--metric', 'h = 0.3', '-o', file('field-none.vtu'), '--no-fields');
     expect(readFileSync(file('field-none.vtu'), 'utf8')).not.toContain('heat');

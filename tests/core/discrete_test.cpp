@@ -1,5 +1,6 @@
 #include "pillowmesh/metric/discrete.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -55,6 +56,36 @@ void check_affine() {
   }
 }
 
+/// Points anywhere, on vertices, edges and facets of the background, on its boundary to rounding, and outside, in three
+/// orders: as they come, sorted (short walks), and one by one.
+template <int Dim>
+void check_independence() {
+  const auto field = from_logs<Dim>(7, [](const Point<Dim>& p) { return affine(p); });
+  std::mt19937 random(8);
+  std::vector<Point<Dim>> points;
+  for (int i = 0; i < 400; ++i) points.push_back(random_point<Dim>(random));
+  for (int i = 0; i <= 70; ++i) points.push_back(Point<Dim>::Constant(i / 70.0));
+  for (int i = 0; i < 400; ++i) {
+    Point<Dim> p = random_point<Dim>(random);
+    const int axis = i % Dim;
+    p[axis] = static_cast<double>(random() % 8) / 7.0;
+    if (i % 3 == 0) p[(axis + 1) % Dim] = p[axis];
+    if (i % 5 == 0) p[axis] += 2e-16 * (static_cast<double>(random() % 5) - 2.0);
+    if (i % 11 == 0) p[axis] = 1.2;
+    points.push_back(p);
+  }
+  std::vector<SymTensor<Dim>> together(points.size()), sorted(points.size());
+  field.evaluate(points, together);
+  for (std::size_t i = 0; i < points.size(); ++i) CHECK(field.evaluate(points[i]) == together[i]);
+  std::vector<std::size_t> order(points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return points[a][0] < points[b][0]; });
+  std::vector<Point<Dim>> in_order;
+  for (const std::size_t i : order) in_order.push_back(points[i]);
+  field.evaluate(in_order, sorted);
+  for (std::size_t k = 0; k < order.size(); ++k) CHECK(sorted[k] == together[order[k]]);
+}
+
 }  // namespace
 
 TEST_CASE("a constant tensor comes back from any place, inside and outside of the background") {
@@ -83,14 +114,8 @@ TEST_CASE("sizes between two vertices are geometric means") {
 }
 
 TEST_CASE("values do not depend on what was asked before, nor on the batch") {
-  const auto field = from_logs<2>(7, [](const Point<2>& p) { return affine(p); });
-  std::mt19937 random(8);
-  std::vector<Point<2>> points;
-  for (int i = 0; i < 300; ++i) points.push_back(random_point<2>(random));
-  for (int i = 0; i <= 70; ++i) points.emplace_back(i / 70.0, i / 70.0);  // on vertices and along edges
-  std::vector<SymTensor<2>> together(points.size());
-  field.evaluate(points, together);
-  for (std::size_t i = 0; i < points.size(); ++i) CHECK(field.evaluate(points[i]) == together[i]);
+  check_independence<2>();
+  check_independence<3>();
 }
 
 TEST_CASE("lengths are right across the kinks of a background") {

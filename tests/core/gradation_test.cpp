@@ -1,5 +1,6 @@
 #include "pillowmesh/metric/gradation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -33,6 +34,12 @@ void check_random(int fields, int n) {
     const double g = growth(random);
     CHECK(limit_gradation(m, g) > 0);
     const auto once = m.tensors;
+    const auto finest = [](const auto& tensors) {
+      double most = 0.0;
+      for (const auto& M : tensors) most = std::max(most, spectrum(M).value[Dim - 1]);
+      return most;
+    };
+    CHECK(finest(once) <= (1.0 + 1e-9) * finest(before.tensors));
     CHECK(limit_gradation(m, g) == 0);
     CHECK(m.tensors == once);
     for (std::size_t v = 0; v < once.size(); ++v) {

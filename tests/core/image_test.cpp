@@ -38,7 +38,9 @@ TEST_CASE("cells are thin across an edge of an image and long along it") {
                     away = spectrum(field.evaluate(Point<2>(0.8, 0.2)));
   CHECK(std::fabs(at_edge.vector[1].dot(Point<2>(1.0, -1.0).normalized())) > 0.99);
   CHECK(at_edge.value[1] > 10.0 * at_edge.value[0]);
-  CHECK(at_edge.value[1] > 20.0 * away.value[1]);
+  // With curvatures c = 1 and f (the floor) there, f and f away: (c f)^(-1/4) c / (f^2)^(-1/4) / f = f^(-3/4) = 18.8 where c is largest.
+  CHECK(at_edge.value[1] > 10.0 * away.value[1]);
+  CHECK(at_edge.value[1] < 19.0 * away.value[1]);
 }
 
 TEST_CASE("a quadratic image has the metric of its Hessian away from the rim") {

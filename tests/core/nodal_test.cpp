@@ -77,4 +77,6 @@ TEST_CASE("tensors that are no metric are named by their vertex") {
   CHECK(check_tensors<2>(tensors, 4).message.find("not finite") != std::string::npos);
   tensors[2] = SymTensor<2>::isotropic(1e-120);
   CHECK(check_tensors<2>(tensors, 4).message.find("1e-100") != std::string::npos);
+  tensors[2] = {{1e-240, 0.0, 1.0}};
+  CHECK(check_tensors<2>(tensors, 4).message.find("1e100") != std::string::npos);
 }

@@ -114,6 +114,14 @@ TEST_CASE("the JSON has the schema's keys in order") {
   CHECK_FALSE(contains(json, "defect"));
 }
 
+TEST_CASE("the JSON says how fields were carried, if any were") {
+  Report r;
+  CHECK_FALSE(contains(to_json(r), "fields"));
+  r.fields = {{"heat", false, "multilinear interpolation"}, {"id", true, "the old value"}};
+  CHECK(contains(to_json(r), "\"fields\": {\n    \"points\": {\n      \"heat\": \"multilinear interpolation\"\n    },\n"
+                             "    \"cells\": {\n      \"id\": \"the old value\"\n    }\n  },"));
+}
+
 TEST_CASE("the JSON holds no NaN and no control characters") {
   Report r;
   r.edge_length.mean = std::numeric_limits<double>::quiet_NaN();

@@ -80,6 +80,8 @@ TEST_CASE("only finite tensors with positive eigenvalues are positive definite")
   CHECK_FALSE(positive_definite(M));
   M(0, 1) = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(positive_definite(M));
+  CHECK_FALSE(positive_definite(SymTensor<2>{{1.0, 1.01, 1.0}}));  // just beyond
+  CHECK(positive_definite(SymTensor<2>{{1.0, 0.99, 1.0}}));
   CHECK_FALSE(positive_definite(SymTensor<2>{}));
   CHECK_FALSE(positive_definite(SymTensor<2>{{std::numeric_limits<double>::infinity(), 0.0, 1.0}}));
 }

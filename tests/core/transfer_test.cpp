@@ -1,5 +1,6 @@
 #include "pillowmesh/adapt/transfer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -8,6 +9,7 @@
 #include "io_meshes.h"
 #include "meshes.h"
 #include "pillowmesh/adapt/adapter.h"
+#include "pillowmesh/io/file_mesh.h"
 #include "pillowmesh/io/io.h"
 #include "pillowmesh/io/sink.h"
 #include "pillowmesh/io/solution_file.h"
@@ -165,6 +167,39 @@ TEST_CASE("fields are written to VTK files and read back, groups apart") {
             CHECK(f.components == g.components);
           }
     }
+}
+
+TEST_CASE("boundary facets have the values of their cells in VTK files") {
+  const auto check = [](const auto& mesh, const auto& facets_of, std::size_t facets) {
+    for (const char* name : {"a.vtk", "a.vtu"}) {
+      std::vector<FieldArray> fields{{"q", true, false, 2, {}}, {"id", true, true, 1, {}}};
+      const auto cells = static_cast<std::size_t>(mesh.cell_count());
+      for (std::size_t c = 0; c < cells; ++c) {
+        fields[0].values.insert(fields[0].values.end(), {0.5 + static_cast<double>(c), -1.0});
+        fields[1].values.push_back(static_cast<double>(10 + c));
+      }
+      Sink sink;
+      REQUIRE(write_mesh_to(sink, mesh, name, {}, fields).ok());
+      const auto file = read_file_mesh(name, sink.take(), true);
+      REQUIRE(file.ok());
+      const auto& listed = facets_of(*file);
+      REQUIRE(listed.place.size() == facets);
+      for (std::size_t i = 0; i < facets; ++i) {
+        const auto row = static_cast<std::size_t>(listed.place[i]);
+        const auto cell = static_cast<std::size_t>(file->fields[1].values.at(row) - 10);
+        REQUIRE(cell < cells);
+        for (const Index v : listed.vertices[i]) {
+          const auto& corners = mesh.cells[cell];
+          CHECK(std::find(corners.begin(), corners.end(), v) != corners.end());
+        }
+        CHECK(file->fields[0].values.at(2 * row) == 0.5 + static_cast<double>(cell));
+        CHECK(file->fields[0].values.at(2 * row + 1) == -1.0);
+      }
+    }
+  };
+  check(make_grid<2>({3, 2}, Point<2>(0, 0), Point<2>(3, 2)), [](const FileMesh& f) -> const auto& { return f.lines; }, 10);
+  check(make_grid<3>({2, 1, 2}, Point<3>(0, 0, 0), Point<3>(1, 1, 1)),
+        [](const FileMesh& f) -> const auto& { return f.quads; }, 16);
 }
 
 TEST_CASE("arrays of a file that another program wrote are found: attributes, and data of cells of other kinds") {

@@ -1,4 +1,4 @@
-"""Other programs read what pillowmesh writes: meshio and, where it is installed, Gmsh.
+"""Other programs read what pillowmesh writes: meshio and, where they are installed, Gmsh and Medit.
 
 Run with: /usr/bin/python3 -m unittest discover -s tests/io -p '*_test.py' -v
 The command is build/release/bin/pillowmesh, or $PILLOWMESH_BIN.
@@ -226,6 +226,32 @@ class GmshReads(Case):
                         mesh = read(self.convert(again, "back.vtk"))
                         self.assertEqual(len(cells(mesh, "quad")), 108)
                         self.assertEqual([list(groups(mesh, "line")).count(t) for t in (2, 3)], [10, 34])
+
+
+@unittest.skipIf(shutil.which("ffmedit") is None or shutil.which("xvfb-run") is None, "ffmedit or xvfb is not installed")
+class MeditReads(Case):
+    """Medit itself (Debian: freefem++), whose format .sol is; it shows a window, for which there is a virtual screen."""
+
+    def told(self, name):
+        # It stays open until it is ended.
+        screen = ["xvfb-run", "-a", "-s", "-screen 0 640x480x24", "timeout", "4", "ffmedit", "-d", "-v", name]
+        done = subprocess.run(screen, cwd=self.folder, capture_output=True, text=True, timeout=60)
+        return done.stdout + done.stderr
+
+    def test_meshes_and_metrics_as_pairs_in_plane_and_space_text_and_binary(self):
+        for spec, formula, size, count in ((QUADS, "h1 = 0.1 + x; h2 = 0.3; theta = y", 3, 12),
+                                           (HEXES, "h1 = 0.1 + x; h2 = 0.3; h3 = 1; theta = y", 6, 36)):
+            for mesh, sol in (("pair.mesh", "pair.sol"), ("binary.meshb", "binary.solb")):
+                with self.subTest(spec=spec, mesh=mesh):
+                    self.convert(spec, mesh)
+                    path = self.folder / sol
+                    subprocess.run([COMMAND, "metric", spec, "--metric", formula, "-o", str(path)], check=True)
+                    text = self.told(mesh)
+                    self.assertIn(f"Reading {sol}", text)
+                    self.assertRegex(text, rf"Solutions\s+{count}\n")
+                    self.assertRegex(text, rf"type=1, size={size}\n")  # one field, of so many numbers
+                    self.assertIn("typtab[0]=3", text)  # a symmetric tensor
+                    path.unlink()
 
 
 if __name__ == "__main__":

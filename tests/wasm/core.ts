@@ -1,9 +1,11 @@
 // The built module, loaded once per test file.
 import { readFileSync } from 'node:fs';
 import { readFile, writeFile, type Input } from '../../wasm/files.ts';
-import { loadCore, loadFiles, type Core, type CoreName } from '../../wasm/loader.ts';
+import { loadCore, loadFiles, loadMetrics, type Core, type CoreName } from '../../wasm/loader.ts';
+import { makeMetric } from '../../wasm/metrics.ts';
 import {
   Session,
+  cases,
   forOtherCore,
   type MeshSource,
   type MetricSpec,
@@ -25,6 +27,7 @@ export const moduleBytes = (which: CoreName | 'files' | 'metrics'): Buffer<Array
 export const load = (which: CoreName = 'full'): Promise<Core> => loadCore(moduleBytes(which));
 const solidCore = await loadCore(moduleBytes(3));
 const files = await loadFiles(moduleBytes('files'));
+const metrics = await loadMetrics(moduleBytes('metrics'));
 
 export const read = (name: string, bytes: Uint8Array): Input => readFile(files, name, bytes);
 export const write = (session: Session, name: string): Uint8Array<ArrayBuffer> =>
@@ -52,6 +55,8 @@ function loaded(core: Core, source: MeshSource): Session {
 export function open(core: Core, source: MeshSource, metric?: MetricSpec, options: Options = {}): Session {
   const session = loaded(core, source);
   if (metric) session.setMetric(metric);
+  else if (source.kind === 'case' && !cases(core).find(({ name }) => name === source.name)?.formula)
+    session.setMetric({ nodal: makeMetric(metrics, session.input(), { image: 'portrait' }) });
   for (const [name, value] of Object.entries(options)) session.setOption(name, value);
   return session;
 }

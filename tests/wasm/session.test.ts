@@ -26,6 +26,7 @@ describe('the gallery', () => {
     const byName = new Map(cases(core).map((c) => [c.name, c]));
     for (const name of ['iso2d', 'aniso2d', 'circle2d']) expect(byName.get(name)?.dim).toBe(2);
     for (const name of ['linear3d', 'sphere3d-paper', 'sphere3d']) expect(byName.get(name)?.dim).toBe(3);
+    expect(byName.get('riemann')).toMatchObject({ dim: 2, mesh: 'grid:16,20:0,0.8,0,1', formula: '' });
     expect(byName.get('iso2d')?.mesh).toBe('grid:7,9:0,7,0,9');
     expect(version(core)).toMatch(/^\d+\.\d+\.\d+$/);
   });
@@ -39,7 +40,7 @@ describe('the gallery', () => {
       expect(report.complexity, name).toBeGreaterThan(1);
       session.destroy();
     }
-  });
+  }, 300_000); // the portrait's metric takes seconds, on a busy machine many
 
   test('the initial meshes measure as the paper printed them', () => {
     const printed = (name: string) => {

@@ -117,6 +117,19 @@ describe('the worker', () => {
     expect(asked).toContain('files');
   });
 
+  test('opens riemann with the metric of its picture, and adapts to it', async () => {
+    const bench = new Bench();
+    const mesh = await bench.call('open', { source: { kind: 'case', name: 'riemann' } });
+    expect(mesh.cells.length).toBe(4 * 16 * 20);
+    expect(JSON.parse(await bench.call('report', {})).complexity).toBeCloseTo(6000, -2);
+    const { outcome, report } = await bench.call('run', { options: { smooth: 'none', 'max-cells': '2000' } });
+    expect(outcome.status).toBe('limit_not_met');
+    expect(JSON.parse(report).mesh.cells).toBeGreaterThan(1000);
+    const given = await bench.call('open', { source: { kind: 'case', name: 'riemann' }, metric: { formula: 'h = 0.1' } });
+    expect(given.cells.length).toBe(mesh.cells.length);
+    expect(JSON.parse(await bench.call('report', {})).complexity).toBeCloseTo(80, 6);
+  }, 300_000); // the portrait's metric takes seconds, on a busy machine many
+
   test('makes a metric from dabs for the mesh that was opened, and adapts to it', async () => {
     const bench = new Bench();
     await bench.call('open', { source: { kind: 'grid', spec: 'grid:4,4:0,1,0,1' }, metric: { formula: 'h = 0.3' } });

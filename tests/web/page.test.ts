@@ -146,6 +146,15 @@ describe('looking', () => {
     expect(await page.getByRole('button', { name: 'Isolines' }).isVisible()).toBe(false);
   });
 
+  test('the portrait opens from the list of cases, with the metric of its picture', async () => {
+    await visit();
+    await page.getByLabel('Case', { exact: true }).selectOption('riemann');
+    const ideal = page.locator('.facts > div', { hasText: 'Ideal' }).locator('dd');
+    await expect.poll(() => ideal.innerText(), { timeout: 200_000 }).toMatch(/^(5,9|6,0)\d\d$/);
+    expect(await caption()).toContain('320 quads');
+    expect(page.url()).toContain('case=riemann');
+  }, 240_000);
+
   test('nothing is drawn while nothing changes', async () => {
     await visit();
     await page.waitForTimeout(800);

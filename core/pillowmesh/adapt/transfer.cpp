@@ -220,6 +220,13 @@ Expected<std::vector<FieldArray>> carry(const Solution<Dim>& from, const Mesh<Di
   return out;
 }
 
+std::string_view carried_how(const FieldArray& field) {
+  if (field.whole) return field.of_cells ? "the old value at the cell's middle" : "the old value at the nearest vertex";
+  return field.of_cells ? "mean over the new cell by 3 Gauss points per axis; constants exact, integrals kept to that rule"
+                        : "multilinear interpolation; error at most h^2/8 times the sum of the pure second derivatives, "
+                          "h: size of the old cells";
+}
+
 template <int Dim>
 Solution<Dim> solution_on(const Mesh<Dim>& mesh) {
   Solution<Dim> out;

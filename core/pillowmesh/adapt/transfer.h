@@ -1,6 +1,7 @@
 // Solution fields carried from one mesh to another of the same domain.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "pillowmesh/mesh/mesh.h"
@@ -28,6 +29,9 @@ struct Solution {
 /// volume. Cost: logarithmic per point.
 template <int Dim>
 Expected<std::vector<FieldArray>> carry(const Solution<Dim>& from, const Mesh<Dim>& to);
+
+/// What `carry` does with a field, and its error, for reports: "multilinear interpolation; ...".
+std::string_view carried_how(const FieldArray& field);
 
 /// The points and cells of a mesh as the beginning of a solution, in the order of `carry`.
 template <int Dim>

@@ -131,6 +131,7 @@ Status write_mesh_to(Sink& sink, const Mesh<Dim>& mesh, std::string_view name, c
   if (Status s = check_writable(name, options); !s.ok()) return s;
   auto input = to_input(mesh);
   input.fields = std::move(fields);
+  continue_fields(input);
   write_to(sink, std::move(input), name, options);
   return {};
 }

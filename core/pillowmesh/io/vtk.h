@@ -50,6 +50,11 @@ int group_array_rank(std::string_view name);
 /// A group number from an array of any type: 0 where it is not an integer of 32 bits.
 Index group_number(double value);
 
+/// Continues the fields of cells on the facets, which have the values of their cell: of the first that has the facet.
+/// Without fields of cells it does nothing. Cost: one sort of the facets.
+template <int Dim>
+void continue_fields(MeshInput<Dim>& mesh);
+
 /// One number per cell and facet, in the order in which write_vtk and write_vtu list them.
 template <int Dim>
 std::vector<Index> group_array(const MeshInput<Dim>& mesh);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -134,6 +135,41 @@ std::vector<Index> group_array(const MeshInput<Dim>& mesh) {
   return groups;
 }
 
+template <int Dim>
+void continue_fields(MeshInput<Dim>& mesh) {
+  if (std::none_of(mesh.fields.begin(), mesh.fields.end(), [](const FieldArray& f) { return f.of_cells; })) return;
+  struct Named {
+    FacetCorners<Dim> key;
+    std::size_t place;
+  };
+  const auto key_of = [](FacetCorners<Dim> v) {
+    std::sort(v.begin(), v.end());
+    return v;
+  };
+  std::vector<Named> facets;
+  for (std::size_t i = 0; i < mesh.facets.size(); ++i) facets.push_back({key_of(mesh.facets[i].vertices), i});
+  std::sort(facets.begin(), facets.end(), [](const Named& a, const Named& b) { return a.key < b.key; });
+  std::vector<Index> cell_of(mesh.facets.size(), kNone);
+  for (std::size_t c = mesh.cells.size(); c-- > 0;) {  // backwards, so that the first cell is what stays
+    for (int f = 0; f < Cell<Dim>::facets; ++f) {
+      FacetCorners<Dim> v;
+      for (int k = 0; k < Cell<Dim>::facet_corners; ++k) v[k] = mesh.cells[c][Cell<Dim>::facet_corner(f, k)];
+      v = key_of(v);
+      auto at = std::lower_bound(facets.begin(), facets.end(), v, [](const Named& a, const auto& k) { return a.key < k; });
+      for (; at != facets.end() && at->key == v; ++at) cell_of[at->place] = static_cast<Index>(c);
+    }
+  }
+  for (FieldArray& f : mesh.fields) {
+    const auto n = static_cast<std::size_t>(f.components);
+    if (!f.of_cells || f.values.size() != n * mesh.cells.size()) continue;
+    for (const Index c : cell_of)
+      for (std::size_t k = 0; k < n; ++k)
+        f.values.push_back(c == kNone ? 0.0 : f.values[static_cast<std::size_t>(c) * n + k]);
+  }
+}
+
+template void continue_fields(MeshInput<2>&);
+template void continue_fields(MeshInput<3>&);
 template std::vector<Index> group_array(const MeshInput<2>&);
 template std::vector<Index> group_array(const MeshInput<3>&);
 

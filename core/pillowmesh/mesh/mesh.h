@@ -138,7 +138,7 @@ struct MeshInput {
   std::vector<Mark> marks;
   std::vector<Group> mark_groups;
 
-  /// Written to VTK files; those of cells are 0 at facets.
+  /// Written to VTK files, where facets have the values of their cells.
   std::vector<FieldArray> fields;
 
   /// How to name cell c in a message, e.g. "quad 17 (line 240)"; empty: "cell c" counted from 0.

@@ -8,6 +8,7 @@
 #include "pillowmesh/mesh/number.h"
 #include "pillowmesh/metric/discrete.h"
 #include "pillowmesh/metric/expression.h"
+#include "pillowmesh/metric/size_octree.h"
 #include "pillowmesh/metric/spectrum.h"
 
 namespace pillowmesh {
@@ -201,6 +202,17 @@ template <int Dim>
 MetricField<Dim> MetricField<Dim>::discrete(std::shared_ptr<const DiscreteMetric<Dim>> metric) {
   MetricField field;
   field.discrete_ = std::move(metric);
+  if constexpr (Dim == 3) {
+    const auto [low, high] = field.discrete_->box();
+    field.octree_ = std::make_shared<const SizeOctree>(field, low, high);
+  }
+  return field;
+}
+
+template <int Dim>
+MetricField<Dim> MetricField<Dim>::approximated() const {
+  MetricField field = *this;
+  field.approximate_ = octree_ != nullptr;
   return field;
 }
 
@@ -219,8 +231,26 @@ MetricField<Dim> MetricField<Dim>::floored(double size) const {
 }
 
 template <int Dim>
+void MetricField<Dim>::look_up(const PointLanes<Dim>& points, int count, TensorLanes<Dim>& out) const {
+  if constexpr (Dim == 3) {
+    std::array<int, kLanes> missed;
+    const int misses = octree_->look_up(points, count, out, missed);
+    if (misses == 0) return;
+    PointLanes<3> others;
+    TensorLanes<3> found;
+    for (int d = 0; d < 3; ++d)
+      for (int k = 0; k < misses; ++k) others[d][k] = points[d][missed[k]];
+    discrete_->evaluate(others, misses, found);
+    for (int e = 0; e < 6; ++e)
+      for (int k = 0; k < misses; ++k) out[e][missed[k]] = found[e][k];
+  }
+}
+
+template <int Dim>
 void MetricField<Dim>::evaluate(const PointLanes<Dim>& points, int count, TensorLanes<Dim>& out) const {
-  if (discrete_)
+  if (approximate_)
+    look_up(points, count, out);
+  else if (discrete_)
     discrete_->evaluate(points, count, out);
   else
     program_->run(points.data(), count, out);

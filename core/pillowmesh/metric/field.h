@@ -20,6 +20,7 @@ using TensorLanes = std::array<Lanes, SymTensor<Dim>::size>;
 
 template <int Dim>
 class DiscreteMetric;  // metric/discrete.h
+class SizeOctree;      // metric/size_octree.h
 
 /// The metric field. A value: cheap to copy, immutable, safe to read from several threads.
 template <int Dim>
@@ -46,6 +47,10 @@ class MetricField {
   /// of which each size is sqrt(h^2 + size^2) and the directions are those of M.
   [[nodiscard]] MetricField floored(double size) const;
 
+  /// For loops that ask again and again and do not need the last digit: a field from a background in space, through an
+  /// octree that is within 2e-3 of its sizes (size_octree.h); any other field as it is.
+  [[nodiscard]] MetricField approximated() const;
+
   /// Tensors at many points at once: the fast way. \pre out.size() >= points.size(). Does not allocate.
   void evaluate(std::span<const Point<Dim>> points, std::span<SymTensor<Dim>> out) const;
   [[nodiscard]] SymTensor<Dim> evaluate(const Point<Dim>& point) const;
@@ -58,11 +63,15 @@ class MetricField {
 
   /// Relative error below which integrals of the field mean nothing: 0 for formulas. A field from a background has a
   /// kink wherever two of its simplices meet; to close in on each would be dear and for nothing.
-  [[nodiscard]] double accuracy() const { return discrete_ ? 1e-5 : 0.0; }
+  [[nodiscard]] double accuracy() const { return approximate_ ? 1e-3 : (discrete_ ? 1e-5 : 0.0); }
 
  private:
+  void look_up(const PointLanes<Dim>& points, int count, TensorLanes<Dim>& out) const;
+
   std::shared_ptr<const Program> program_;  ///< one of these two
   std::shared_ptr<const DiscreteMetric<Dim>> discrete_;
+  std::shared_ptr<const SizeOctree> octree_;  ///< of discrete_, in space
+  bool approximate_ = false;                  ///< read octree_ where it has a piece
   double scale_ = 1.0;  ///< of the tensor
   double floor_ = 0.0;  ///< least size, before that
 };

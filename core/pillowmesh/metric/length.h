@@ -34,7 +34,8 @@ void edge_lengths(const MetricField<Dim>& field, std::span<const Point<Dim>> poi
                   const LengthOptions& options = {});
 
 /// tagged[i] = 1 where edge i is longer than `threshold`, else 0: looks only as closely as the decision needs, at four
-/// even steps in each panel of most edges. Right for all lengths further than 1e-6 * threshold from the threshold.
+/// even steps in each panel of most edges. Right for all lengths further than 1e-6 * threshold from the threshold, by an
+/// approximated field (MetricField::approximated) further than 3e-3 * threshold.
 /// \param panel as in LengthOptions. \pre tagged.size() == edges.size()
 template <int Dim>
 void tag_long_edges(const MetricField<Dim>& field, std::span<const Point<Dim>> points,

@@ -75,7 +75,8 @@ void tag_long_edges(const MetricField<Dim>& field, std::span<const Point<Dim>> p
                     std::span<unsigned char> tagged) {
   constexpr std::size_t kEnough = 2048;  // samples
   const double margin = 1e-7 * threshold;
-  EvenSampler<Dim> sampler(field);
+  const MetricField<Dim> approximated = field.approximated();
+  EvenSampler<Dim> sampler(approximated);
   std::vector<int> panels;
   std::vector<std::array<VertexId, 2>> doubtful;
   std::vector<std::size_t> places;
@@ -111,7 +112,7 @@ void tag_long_edges(const MetricField<Dim>& field, std::span<const Point<Dim>> p
     start = end;
   }
   std::vector<double> lengths(doubtful.size());
-  edge_lengths<Dim>(field, points, doubtful, lengths, {.tolerance = 1e-7, .panel = panel});
+  edge_lengths<Dim>(approximated, points, doubtful, lengths, {.tolerance = 1e-7, .panel = panel});
   for (std::size_t k = 0; k < places.size(); ++k) tagged[places[k]] = lengths[k] > threshold ? 1 : 0;
 }
 

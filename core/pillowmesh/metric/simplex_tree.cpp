@@ -1,6 +1,7 @@
 #include "pillowmesh/metric/simplex_tree.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace pillowmesh {
@@ -108,6 +109,21 @@ Weights<Dim> barycentric(std::span<const Point<Dim>> points, const Simplex<Dim>&
 }
 
 template <int Dim>
+double nearest_in_simplex(std::span<const Point<Dim>> points, const Simplex<Dim>& simplex, const Weights<Dim>& barycentric,
+                          const Point<Dim>& p, Weights<Dim>& nearest) {
+  double best = std::numeric_limits<double>::infinity();
+  for (int f = 0; f <= Dim; ++f) {  // it lies on a facet that p is beyond
+    if (barycentric[f] >= 0.0) continue;
+    Weights<Dim> on_facet;
+    const double square = nearest_on_facet(points, simplex, f, p, on_facet);
+    if (!(square < best)) continue;
+    best = square;
+    nearest = on_facet;
+  }
+  return best;
+}
+
+template <int Dim>
 SimplexTree<Dim>::SimplexTree(std::span<const Point<Dim>> points, std::vector<Simplex<Dim>>& simplices) {
   std::vector<Point<Dim>> centres(simplices.size(), Point<Dim>::Zero());
   for (std::size_t i = 0; i < simplices.size(); ++i)
@@ -140,6 +156,7 @@ Index SimplexTree<Dim>::build(std::span<const Point<Dim>> points, std::span<cons
   nodes_[id].low = low;
   nodes_[id].high = high;
   if (order.size() <= static_cast<std::size_t>(kLeaf)) {
+    std::sort(order.begin(), order.end());  // their order must not depend on the library's nth_element
     nodes_[id].left = ~first;
     nodes_[id].count = static_cast<Index>(order.size());
     return id;
@@ -148,8 +165,9 @@ Index SimplexTree<Dim>::build(std::span<const Point<Dim>> points, std::span<cons
   for (int d = 1; d < Dim; ++d)
     if (high_centre[d] - low_centre[d] > high_centre[axis] - low_centre[axis]) axis = d;
   const std::size_t middle = order.size() / 2;
-  // The id breaks ties: which of two simplices that share a place is found must not depend on the library's sort.
-  std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+  // The id breaks ties: which of two simplices that share a place is found must not depend on the library.
+  const auto at_middle = order.begin() + static_cast<std::ptrdiff_t>(middle);
+  std::nth_element(order.begin(), at_middle, order.end(), [&](Index a, Index b) {
     return centres[a][axis] != centres[b][axis] ? centres[a][axis] < centres[b][axis] : a < b;
   });
   build(points, simplices, centres, order.first(middle), first);  // becomes node id + 1
@@ -206,15 +224,12 @@ SimplexPlace<Dim> SimplexTree<Dim>::nearest(std::span<const Point<Dim>> points, 
       continue;
     }
     for (Index i = ~node.left; i < ~node.left + node.count; ++i) {
-      const Weights<Dim> w = barycentric<Dim>(points, simplices[i], p);
-      for (int f = 0; f <= Dim; ++f) {  // the nearest point lies on a facet that p is beyond
-        if (w[f] >= 0.0) continue;
-        Weights<Dim> on_facet;
-        const double square = nearest_on_facet(points, simplices[i], f, p, on_facet);
-        if (square < best_square || best.simplex == kNone) {
-          best_square = square;
-          best = {i, on_facet};
-        }
+      Weights<Dim> nearest;
+      const double square =
+          nearest_in_simplex<Dim>(points, simplices[i], barycentric<Dim>(points, simplices[i], p), p, nearest);
+      if (square < best_square || best.simplex == kNone) {
+        best_square = square;
+        best = {i, nearest};
       }
     }
   }
@@ -224,6 +239,8 @@ SimplexPlace<Dim> SimplexTree<Dim>::nearest(std::span<const Point<Dim>> points, 
 #define PILLOWMESH_INSTANTIATE(D)                                                                    \
   template class SimplexTree<D>;                                                                     \
   template Weights<D> barycentric<D>(std::span<const Point<D>>, const Simplex<D>&, const Point<D>&); \
+  template double nearest_in_simplex<D>(std::span<const Point<D>>, const Simplex<D>&, const Weights<D>&, const Point<D>&, \
+                                        Weights<D>&); \
   template double simplex_determinant<D>(std::span<const Point<D>>, const Simplex<D>&);
 PILLOWMESH_INSTANTIATE(2)
 PILLOWMESH_INSTANTIATE(3)

@@ -29,7 +29,7 @@ struct SimplexPlace {
 template <int Dim>
 class SimplexTree {
  public:
-  /// Puts `simplices` in the order of the tree's leaves, so that neighbours in space are near in memory. Cost: n log^2 n.
+  /// Puts `simplices` in the order of the tree's leaves, so that neighbours in space are near in memory. Cost: n log n.
   /// \pre all have a volume
   SimplexTree(std::span<const Point<Dim>> points, std::vector<Simplex<Dim>>& simplices);
 
@@ -56,6 +56,12 @@ class SimplexTree {
 /// Barycentric coordinates, with any sign, of p in the simplex; its edges are those from vertex 0.
 template <int Dim>
 Weights<Dim> barycentric(std::span<const Point<Dim>> points, const Simplex<Dim>& simplex, const Point<Dim>& p);
+
+/// The place in the simplex that is nearest to p, which lies outside of it; returns the squared distance. \pre a barycentric
+/// coordinate of p is negative
+template <int Dim>
+double nearest_in_simplex(std::span<const Point<Dim>> points, const Simplex<Dim>& simplex, const Weights<Dim>& barycentric,
+                          const Point<Dim>& p, Weights<Dim>& nearest);
 
 /// Dim! times the signed volume.
 template <int Dim>

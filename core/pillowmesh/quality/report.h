@@ -4,12 +4,20 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "pillowmesh/mesh/mesh.h"
 #include "pillowmesh/metric/field.h"
 #include "pillowmesh/quality/statistics.h"
 
 namespace pillowmesh {
+
+/// How a field came from the old mesh to the new one.
+struct CarriedField {
+  std::string name;
+  bool of_cells = false;
+  std::string how;  ///< the method and its error, in a sentence
+};
 
 /// The fields of the report, in its order. Lengths are metric lengths; seconds are wall time.
 struct Report {
@@ -29,6 +37,7 @@ struct Report {
   double complexity = 0.0;       ///< integral of sqrt(det M): the ideal number of cells
   bool valid = false;
   std::string defect;                              ///< the first defect's sentence when not valid
+  std::vector<CarriedField> fields;                ///< solution fields that were carried
   std::map<std::string, double> seconds;           ///< total, refine, smooth, ...
   std::int64_t peak_memory_bytes = 0;              ///< 0 where the system does not tell
   std::map<std::string, std::int64_t> operations;  ///< layers, iterations, relocations, ...

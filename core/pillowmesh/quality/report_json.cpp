@@ -104,6 +104,16 @@ std::string to_json(const Report& report) {
   json.number("complexity", report.complexity);
   json.boolean("valid", report.valid);
   if (!report.valid) json.string("defect", report.defect);
+  if (!report.fields.empty()) {
+    json.open("fields");
+    for (const bool of_cells : {false, true}) {
+      json.open(of_cells ? "cells" : "points");
+      for (const CarriedField& f : report.fields)
+        if (f.of_cells == of_cells) json.string(f.name, f.how);
+      json.close();
+    }
+    json.close();
+  }
   json.open("seconds");
   for (const auto& [name, value] : report.seconds) json.number(name, value);
   json.close();

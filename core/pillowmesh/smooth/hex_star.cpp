@@ -36,7 +36,7 @@ HexStar::VertexMetric HexStar::vertex_metric(const SymTensor<3>& M) {
   return {M, std::sqrt(det), 1.0 / det};
 }
 
-HexStar::HexStar(const Mesh<3>& mesh, const MetricField<3>& field) : mesh_(mesh), field_(field), table_(mesh) {
+HexStar::HexStar(const Mesh<3>& mesh, const MetricField<3>& field) : mesh_(mesh), field_(field.approximated()), table_(mesh) {
   metric_.resize(mesh.points.size());
   std::array<SymTensor<3>, 256> batch;
   for (std::size_t i = 0; i < mesh.points.size(); i += batch.size()) {

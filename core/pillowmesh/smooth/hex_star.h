@@ -130,7 +130,7 @@ class HexStar {
   void add_change_of_metric(Vector& gradient);
 
   const Mesh<3>& mesh_;
-  MetricField<3> field_;
+  MetricField<3> field_;  ///< approximated
   StarTable table_;
   std::vector<VertexMetric> metric_;  ///< per vertex
   VertexId vertex_ = kNone;

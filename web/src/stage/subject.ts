@@ -45,7 +45,7 @@ export class Subject {
         : choice;
     let text = formula || this.ownFormula(choice) || '';
     const mesh = await this.workshop.open(source, text ? { formula: text } : undefined);
-    if (!text) {
+    if (!text && this.ownFormula(choice) === undefined) {
       text = formulaFor(mesh);
       await this.workshop.setMetric({ formula: text });
     }
