@@ -13,10 +13,14 @@ endif()
 string(JOIN "|" hot
   "refine/(balance|buffer_layer|edge_tags|hull|layer|tag_inheritance|untangle|vertex_copies)" "smooth/" "quality/shape"
   "metric/(background|program|field|length|volume)" "adapt/tagging" "mesh/(foot|slide|topology)")
-# The module for hexahedra has room for more. What is listed here is compiled once more for it: of an inline function
-# that was not inlined, the linker keeps one copy for all callers, and it may be one from a source compiled with -Oz.
+# The modules for hexahedra and for metrics have room for more. What is listed here is compiled once more for them: of an
+# inline function that was not inlined, the linker keeps one copy for all callers, and it may be one from a source
+# compiled with -Oz. (Making the metric of the portrait took 22 s without, most of it in one-line accessors.)
 string(JOIN "|" hot_in_3d "adapt/(adapter|longest_edge|recorder)" "mesh/validate" "quality/")
+string(JOIN "|" hot_in_metrics
+  "metric/(gradation|image|intersection|nodal|portrait|simplex_tree|spectrum)")
 set(fast_in_3d)
+set(fast_in_metrics)
 foreach(source ${core_sources} ${wasm_sources})
   if(source MATCHES "pillowmesh/(${hot})|third_party")
     set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -O2 -flto)
@@ -24,6 +28,10 @@ foreach(source ${core_sources} ${wasm_sources})
     list(APPEND fast_in_3d ${source})
     set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS
       $<IF:$<STREQUAL:$<TARGET_PROPERTY:OUTPUT_NAME>,pillowmesh3d>,-O2,-Oz> -flto)
+  elseif(source MATCHES "pillowmesh/(${hot_in_metrics})")
+    list(APPEND fast_in_metrics ${source})
+    set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS
+      $<IF:$<STREQUAL:$<TARGET_PROPERTY:OUTPUT_NAME>,pillowmesh_metrics>,-O2,-Oz> -flto)
   else()
     set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -Oz -flto)
   endif()
@@ -69,4 +77,4 @@ pillowmesh_module(pillowmesh_wasm_full OUTPUT pillowmesh_full SOURCES ${adapting
 pillowmesh_module(pillowmesh_wasm3d OUTPUT pillowmesh3d SOURCES ${adapting_in_3d} DEFINITIONS PILLOWMESH_DIMENSION=3)
 pillowmesh_module(pillowmesh_wasm_files OUTPUT pillowmesh_files SOURCES wasm/files_api.cpp ${by_dimension})
 pillowmesh_module(pillowmesh_wasm_metrics OUTPUT pillowmesh_metrics
-  SOURCES wasm/metrics_api.cpp wasm/nodal_bytes.cpp ${by_dimension})
+  SOURCES wasm/metrics_api.cpp wasm/nodal_bytes.cpp ${fast_in_metrics} ${by_dimension})
