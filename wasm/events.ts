@@ -1,5 +1,15 @@
 // Replayable events as they come out of the core: views into two flat arrays, nothing copied.
 
+/** Changes of topology by full adaptation; the vertices around are relocated with them. */
+const operators = [
+  'rotate',
+  'collapse',
+  'open',
+  'chord_collapse',
+  'chord_split',
+  'boundary_collapse',
+  'boundary_open',
+] as const;
 /** In the order of EventKind in core/pillowmesh/adapt/trace.h. */
 export const eventKinds = [
   'tags',
@@ -9,25 +19,10 @@ export const eventKinds = [
   'dice',
   'relocation',
   'iteration',
-  'rotate',
-  'collapse',
-  'open',
-  'chord_collapse',
-  'chord_split',
-  'boundary_collapse',
-  'boundary_open',
+  ...operators,
 ] as const;
 export type EventKind = (typeof eventKinds)[number];
-/** Changes of topology by full adaptation; the vertices around are relocated with them. */
-export const operatorKinds: ReadonlySet<EventKind> = new Set([
-  'rotate',
-  'collapse',
-  'open',
-  'chord_collapse',
-  'chord_split',
-  'boundary_collapse',
-  'boundary_open',
-]);
+export const operatorKinds: ReadonlySet<EventKind> = new Set(operators);
 
 /** What changed. The arrays only grow; a dead cell has corners -1, and a new one may take its number. */
 export interface MeshDelta {

@@ -152,7 +152,7 @@ describe('looking', () => {
     const ideal = page.locator('.facts > div', { hasText: 'Ideal' }).locator('dd');
     await expect.poll(() => ideal.innerText(), { timeout: 200_000 }).toMatch(/^(5,9|6,0)\d\d$/);
     expect(await caption()).toContain('320 quads');
-    expect(page.url()).toContain('case=riemann');
+    await expect.poll(() => page.url()).toContain('case=riemann');
   }, 240_000);
 
   test('nothing is drawn while nothing changes', async () => {

@@ -52,19 +52,19 @@ export function captionOf(event: MeshEvent | undefined, mesh: ReplayMesh, thresh
       return `${moved} to even out size and shape in the metric.`;
     }
     case 'rotate':
-      return 'An edge is turned inside the hexagon of its two quads, and the vertices around are moved.';
+      return 'An edge is turned inside the hexagon of its two quads.';
     case 'collapse':
       return `A quad is removed by merging two opposite vertices; ${now()} are left.`;
     case 'open':
       return `A vertex is split along two of its edges, and a quad fills the gap; that gives ${now()}.`;
     case 'chord_collapse':
-      return `A whole row is removed, from boundary to boundary or all around; ${now()} are left.`;
+      return `A whole row is removed; ${now()} are left.`;
     case 'chord_split':
-      return `A whole row is doubled, from boundary to boundary or all around; that gives ${now()}.`;
+      return `A whole row is doubled; that gives ${now()}.`;
     case 'boundary_collapse':
-      return `Two boundary edges are laid on each other, and the rows that ended there become one; ${now()} are left.`;
+      return `Two boundary edges are laid on each other; ${now()} are left.`;
     case 'boundary_open':
-      return `A boundary vertex is split in three, and a row that turned inside ends there twice; that gives ${now()}.`;
+      return `A boundary vertex is split in three; that gives ${now()}.`;
     case 'iteration':
       return `Iteration ${iteration} ends with ${now()}${longest(value)}.`;
   }

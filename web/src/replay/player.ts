@@ -4,8 +4,8 @@ import type { MeshArrays } from '../../../wasm/session.ts';
 import type { Pace } from '../state/settings.ts';
 import { ReplayMesh } from './replay_mesh.ts';
 
-/** How long an event stands at pace 1, in milliseconds. */
-const dwell: Record<EventKind, number> = {
+/** How long an event stands at pace 1, in milliseconds, where it is not 500. */
+const dwell: Partial<Record<EventKind, number>> = {
   tags: 1500,
   layer: 1100,
   shrink: 900,
@@ -13,13 +13,8 @@ const dwell: Record<EventKind, number> = {
   dice: 1200,
   relocation: 160,
   iteration: 900,
-  rotate: 500,
-  collapse: 500,
-  open: 500,
   chord_collapse: 1100,
   chord_split: 1100,
-  boundary_collapse: 500,
-  boundary_open: 500,
 };
 const longestAnimation = 520;
 /** Events that `auto` shows at pace 1 before it speeds up, by what factor each, and to what pace. */
@@ -166,7 +161,7 @@ export class Player {
   /** How long the mesh after `index` events stands, in milliseconds. */
   private holdAt(index: number): number {
     const event = this.events[index - 1];
-    return (event ? dwell[event.kind] : 500) / this.speed(index);
+    return ((event && dwell[event.kind]) ?? 500) / this.speed(index);
   }
 
   private speed(index: number): number {
