@@ -73,6 +73,6 @@ describe('the source tree', () => {
   it('is configured by FetchContent, which gives the program the same target', () => {
     // Not built a second time: from here on it is a subproject.
     const folder = configure('fetched');
-    expect(run('ninja', ['-C', folder, '-t', 'query', 'consumer'])).toContain('libpillowmesh.a');
+    expect(run('ninja', ['-C', folder, '-t', 'query', 'consumer'])).toMatch(/libpillowmesh\./);
   });
 });
