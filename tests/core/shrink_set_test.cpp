@@ -66,7 +66,7 @@ void print(const std::string& name, std::size_t largest, unsigned seed, const Ta
 
 Mesh<3> primitive(const char* spec) { return std::get<Mesh<3>>(*parse_primitive(spec)); }
 
-/// The meshes of issue 3, those of ../shared/data where they are present.
+/// Primitives, and the meshes of others, those of ../shared/data where they are present.
 std::vector<corpus::Named<3>> meshes_to_shrink() {
   std::vector<corpus::Named<3>> out;
   out.push_back({"cube", primitive("grid:4,4,4:0,1,0,1,0,1")});
@@ -182,7 +182,7 @@ TEST_CASE("layers upon layers of random shrink sets stay valid") {
   }
 }
 
-// pillowmesh_tests "[full]": the figures of issue 3, and larger sets. Minutes.
+// pillowmesh_tests "[.full]": 500 sets on each mesh, and larger sets. Minutes.
 TEST_CASE("of 500 random shrink sets on each mesh 95 of 100 give a valid mesh", "[.full]") {
   unsigned seed = 2;
   for (const std::size_t largest : {8u, 25u, 60u})

@@ -41,6 +41,13 @@ bool LocalSearch::worth_trying(int excess) { return excess <= kMostExcess; }
 
 double LocalSearch::threshold() { return (temperature_ > 0 ? temperature_ * random_.exponential() : 0.0) - kNoise; }
 
+/// What is planned, at the temperature of the pass; it may raise the energy by `bonus` more.
+bool LocalSearch::attempt(Operator op, double bonus) {
+  if (!trial_.attempt(op, threshold() + bonus)) return false;
+  ++kept_;
+  return true;
+}
+
 bool LocalSearch::continue_pass(std::int64_t moves) {
   const std::int64_t stop = trial_.moves + moves;
   for (; next_ < mesh_.cell_count(); ++next_) {
@@ -76,9 +83,7 @@ void LocalSearch::try_rotations(CellId c) {
       const VertexId from = way == 0 ? v[2] : v[3], to = way == 0 ? v[4] : v[5];
       if (!worth_trying(trial_.excess(v[0], -1) + trial_.excess(v[1], -1) + trial_.excess(from, 1) + trial_.excess(to, 1)))
         continue;
-      if (!trial_.attempt(Operator::rotate, threshold())) continue;
-      ++kept_;
-      break;
+      if (attempt(Operator::rotate, 0.0)) break;
     }
   }
 }
@@ -94,9 +99,7 @@ void LocalSearch::try_collapses(CellId c) {
                       trial_.excess(y, -1)))
       continue;
     if (!plan_diagonal_collapse(mesh_, c, i, trial_.cavity)) continue;
-    if (!trial_.attempt(Operator::collapse, threshold() - kCellBonus)) continue;
-    ++kept_;
-    return;
+    if (attempt(Operator::collapse, -kCellBonus)) return;
   }
 }
 
@@ -118,8 +121,7 @@ void LocalSearch::try_openings(CellId c) {
                           trial_.excess(b, 1)))
           continue;
         if (!plan_opening(mesh_, v, star, first, last, trial_.cavity)) continue;
-        opened = trial_.attempt(Operator::open, threshold() + kCellBonus);
-        kept_ += opened ? 1 : 0;
+        opened = attempt(Operator::open, kCellBonus);
       }
   }
 }
@@ -136,9 +138,7 @@ void LocalSearch::try_boundary_collapses(CellId c) {
                       trial_.excess(p, -1)))
       continue;
     if (!plan_boundary_collapse(mesh_, v, trial_.cavity)) continue;
-    if (!trial_.attempt(Operator::boundary_collapse, threshold() - kCellBonus)) continue;
-    ++kept_;
-    return;
+    if (attempt(Operator::boundary_collapse, -kCellBonus)) return;
   }
 }
 
@@ -157,9 +157,7 @@ void LocalSearch::try_boundary_openings(CellId c) {
                         trial_.excess(around(mesh_, c, i + 2), 1)))
         continue;
       if (!plan_boundary_opening(mesh_, c, i, turned == 1, trial_.cavity)) continue;
-      if (!trial_.attempt(Operator::boundary_open, threshold() + kCellBonus)) continue;
-      ++kept_;
-      return;
+      if (attempt(Operator::boundary_open, kCellBonus)) return;
     }
   }
 }

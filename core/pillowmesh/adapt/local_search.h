@@ -7,10 +7,10 @@
 
 namespace pillowmesh {
 
-/// Tries rotations, collapses and openings around irregular vertices and badly sized cells, at a temperature: a change
-/// that raises the energy by dE is kept with the probability exp(-dE / T) (Metropolis), where a cell more counts as a
-/// little less energy, at any temperature (kCellBonus). At T = 0 only where something has changed since a cell was last
-/// looked at.
+/// Tries rotations, collapses and openings, inside and at the boundary, around irregular vertices and badly sized cells, at
+/// a temperature: a change that raises the energy by dE is kept with the probability exp(-dE / T) (Metropolis), where a
+/// cell more counts as a little less energy, at any temperature (kCellBonus). At T = 0 only where something has changed
+/// since a cell was last looked at.
 class LocalSearch {
  public:
   /// Must not outlive `trial`.
@@ -31,6 +31,7 @@ class LocalSearch {
   bool interesting(CellId c);
   bool worth_trying(int excess);
   double threshold();
+  bool attempt(Operator op, double bonus);
   double chord_gain();
   void try_rotations(CellId c);
   void try_collapses(CellId c);

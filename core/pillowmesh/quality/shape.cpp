@@ -6,51 +6,10 @@
 #include <vector>
 
 #include "pillowmesh/mesh/portable_math.h"
-#include "pillowmesh/metric/volume.h"
+#include "pillowmesh/quality/corner_simplex.h"
 
 namespace pillowmesh {
 namespace {
-
-// The corner simplices of a cell as index arithmetic. The edges of simplex k run from corner k to corner k ^ (1 << d),
-// and between those ends, in the order of SimplexLengths.
-template <int Dim>
-struct CornerSimplex {
-  static constexpr int edges = Dim * (Dim + 1) / 2;
-
-  static constexpr std::array<int, 2> edge(int k, int i) {
-    if (i < Dim) return {k, k ^ (1 << i)};
-    // i = Dim, Dim + 1, Dim + 2 join the ends along the axes (0, 1), (0, 2), (1, 2).
-    const int a = i == Dim + 2 ? 1 : 0;
-    const int b = i == Dim ? 1 : 2;
-    return {k ^ (1 << a), k ^ (1 << b)};
-  }
-};
-
-// The pairs of corners that are an edge of some corner simplex, each once, and the place of each simplex edge among them.
-template <int Dim>
-struct SimplexPairs {
-  static constexpr int count = Dim == 2 ? 6 : 24;  // edges, and diagonals of quadrilaterals
-  std::array<std::array<int, 2>, count> pair{};
-  std::array<std::array<int, CornerSimplex<Dim>::edges>, Cell<Dim>::corners> place{};
-
-  constexpr SimplexPairs() {
-    int found = 0;
-    for (int k = 0; k < Cell<Dim>::corners; ++k) {
-      for (int i = 0; i < CornerSimplex<Dim>::edges; ++i) {
-        const std::array<int, 2> e = CornerSimplex<Dim>::edge(k, i);
-        const int low = e[0] < e[1] ? e[0] : e[1];
-        const int high = e[0] < e[1] ? e[1] : e[0];
-        int at = 0;
-        while (at < found && (pair[at][0] != low || pair[at][1] != high)) ++at;
-        if (at == found) {
-          pair[found][0] = low;
-          pair[found++][1] = high;
-        }
-        place[k][i] = at;
-      }
-    }
-  }
-};
 
 // Metric lengths of all edges of all corner simplices of a chunk of cells. Neighbouring cells and corners share most
 // of them: each is integrated once.
@@ -75,8 +34,7 @@ class SimplexEdges {
       if (i > 0 && keys_[i][0] == keys_[i - 1][0]) continue;
       const std::array<VertexId, 2> pair{static_cast<VertexId>(keys_[i][0] >> 32),
                                          static_cast<VertexId>(keys_[i][0] & 0xffffffffu)};
-      const auto [from, to] = kPairs.pair[keys_[i][1] % kPerCell];
-      const bool diagonal = ((from ^ to) & ((from ^ to) - 1)) != 0;
+      const bool diagonal = !kPairs.is_edge(static_cast<int>(keys_[i][1] % kPerCell));
       if (!diagonal) next = std::lower_bound(next, known.edges.end(), pair);
       if (!diagonal && next != known.edges.end() && *next == pair) {
         unique_.push_back(known.lengths[next - known.edges.begin()]);
@@ -139,15 +97,6 @@ double flat_volume(const SimplexLengths<3>& l) {
 }
 
 template <int Dim>
-SimplexPoints<Dim> corner_simplex(const Mesh<Dim>& mesh, CellId c, int k) {
-  const auto point = [&](int corner) { return mesh.points[mesh.cells[c][corner]]; };
-  SimplexPoints<Dim> p{point(k)};
-  for (int d = 0; d < Dim; ++d) p[1 + d] = point(k ^ (1 << d));
-  if (Cell<Dim>::corner_sign(k) < 0) std::swap(p[1], p[2]);
-  return p;
-}
-
-template <int Dim>
 double least(const std::array<double, Cell<Dim>::corners>& values) {
   return *std::min_element(values.begin(), values.end());
 }
@@ -187,7 +136,7 @@ void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span
     if (!integral.empty()) {
       simplices.clear();
       for (const CellId c : chunk) {
-        for (int k = 0; k < kCorners; ++k) simplices.push_back(corner_simplex(mesh, c, k));
+        for (int k = 0; k < kCorners; ++k) simplices.push_back(corner_simplex<Dim>(mesh, c, k));
       }
       volumes.resize(simplices.size());
       simplex_volumes<Dim>(field, simplices, volumes, volume_options);

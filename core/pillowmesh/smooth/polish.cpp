@@ -10,38 +10,15 @@
 #include "pillowmesh/mesh/topology.h"
 #include "pillowmesh/metric/length.h"
 #include "pillowmesh/metric/volume.h"
+#include "pillowmesh/quality/corner_simplex.h"
 #include "pillowmesh/quality/shape.h"
 
 namespace pillowmesh {
 namespace {
 
 using C = Cell<3>;
-constexpr int kPairs = 24;  // of the corners of a cell: edges, and diagonals of facets
-
-/// The pairs of corners, and which of them are the edges of each corner simplex, in the order of SimplexLengths.
-struct PairTable {
-  std::array<std::array<int, 2>, kPairs> pair{};
-  std::array<std::array<int, 6>, C::corners> place{};
-  constexpr PairTable() {
-    int found = 0;
-    for (int k = 0; k < C::corners; ++k)
-      for (int i = 0; i < 6; ++i) {
-        const int a = i < 3 ? k : k ^ (i == 5 ? 2 : 1), b = i < 3 ? k ^ (1 << i) : k ^ (i == 3 ? 2 : 4);
-        int at = 0;
-        while (at < found && !(pair[at][0] == (a < b ? a : b) && pair[at][1] == (a < b ? b : a))) ++at;
-        if (at == found) {
-          pair[found][0] = a < b ? a : b;
-          pair[found++][1] = a < b ? b : a;
-        }
-        place[k][i] = at;
-      }
-  }
-  [[nodiscard]] constexpr bool is_edge(int j) const {
-    const int bits = pair[j][0] ^ pair[j][1];
-    return (bits & (bits - 1)) == 0;
-  }
-};
-constexpr PairTable kTable;
+constexpr SimplexPairs<3> kTable;
+constexpr int kPairs = SimplexPairs<3>::count;
 
 /// eta of the flat simplex; below 0 where there is none, the more the further the lengths miss one.
 double signed_shape(const SimplexLengths<3>& l) {
@@ -147,9 +124,7 @@ class Polisher {
     for (int i = 0; i < C::corners; ++i) {
       const int bits = i ^ k;
       if (k != kNone && (bits & (bits - 1)) != 0) continue;
-      const auto point = [&](int corner) { return mesh_.points[mesh_.cells[c][corner]]; };
-      const bool right = C::corner_sign(i) > 0;
-      simplices[n] = {point(i), point(i ^ (right ? 1 : 2)), point(i ^ (right ? 2 : 1)), point(i ^ 4)};
+      simplices[n] = corner_simplex(mesh_, c, i);
       at[n++] = i;
     }
     simplex_volumes<3>(field_, std::span(simplices).first(n), std::span(found).first(n), {.tolerance = 2e-2});
