@@ -16,6 +16,8 @@ std::string_view to_string(EventKind kind) {
     case EventKind::open: return "open";
     case EventKind::chord_collapse: return "chord_collapse";
     case EventKind::chord_split: return "chord_split";
+    case EventKind::boundary_collapse: return "boundary_collapse";
+    case EventKind::boundary_open: return "boundary_open";
   }
   return "";
 }
