@@ -6,6 +6,7 @@
 #include "meshes.h"
 #include "pillowmesh/mesh/topology.h"
 #include "pillowmesh/mesh/validate.h"
+#include "pillowmesh/metric/length.h"
 #include "pillowmesh/smooth/quad_descent.h"
 
 using namespace pillowmesh;
@@ -88,6 +89,104 @@ TEST_CASE("the gradient of the energy agrees with finite differences") {
       }
     }
   }
+}
+
+namespace {
+
+Background of_formula(const char* text) { return {*MetricField<2>::from_formula(text), Point<2>(-1, -1), Point<2>(1, 1)}; }
+
+struct Ends {
+  Point<2> p, q;
+};
+/// Edges of about unit length in the metric, anywhere in [-.9, .9]^2.
+std::vector<Ends> some_edges(const MetricField<2>& field, int count) {
+  std::mt19937 random(17);
+  const auto any = [&] { return random() / 2147483648.0 - 1.0; };
+  std::vector<Ends> edges;
+  while (static_cast<int>(edges.size()) < count) {
+    const Point<2> p(0.9 * any(), 0.9 * any());
+    Point<2> e(any(), any());
+    e *= (0.8 + 0.2 * any()) / std::sqrt(dot(field.evaluate(p), e, e));
+    const Point<2> q = p + e;
+    if (q.cwiseAbs().maxCoeff() < 0.9) edges.push_back({p, q});
+  }
+  return edges;
+}
+
+const char* const kVarying[] = {"h = 0.05 + 0.1*abs(x)", "h1 = 0.05 + 0.1*y^2; h2 = 0.1*exp(x); theta = x + 2*y",
+                                "theta = atan2(y, x); r = sqrt(x^2 + y^2); h1 = r/30 + abs(0.5 - r)/2; h2 = r/15 + abs(0.5 - r)/2",
+                                "h = if(x < 0.1, 0.05, 0.2)"};
+
+}  // namespace
+
+TEST_CASE("two edges at a time are measured as each alone, to the bit") {
+  for (const char* text : kVarying) {
+    INFO(text);
+    auto metric = of_formula(text);
+    const auto edges = some_edges(*MetricField<2>::from_formula(text), 200);
+    for (std::size_t i = 0; i + 1 < edges.size(); i += 2) {
+      const auto& [a, b] = edges[i];
+      const auto& [c, d] = edges[i + 1];
+      const Point<2> e = b - a, f = d - c;
+      const auto A = jet_of(metric.jet(a)), B = jet_of(metric.jet(b)), C = jet_of(metric.jet(c)), D = jet_of(metric.jet(d));
+      const auto both = [](const JetOf<double>& u, const JetOf<double>& v) {
+        return JetOf<Pair>{pair_of(u.a, v.a),   pair_of(u.b, v.b),   pair_of(u.c, v.c),   pair_of(u.ax, v.ax), pair_of(u.bx, v.bx),
+                           pair_of(u.cx, v.cx), pair_of(u.ay, v.ay), pair_of(u.by, v.by), pair_of(u.cy, v.cy)};
+      };
+      const auto two = edge_term<Pair>(metric, kNone, 1.0, pair_of(a[0], c[0]), pair_of(a[1], c[1]), pair_of(e[0], f[0]),
+                                       pair_of(e[1], f[1]), both(A, C), both(B, D));
+      const EdgeTerm one = edge_term(metric, kNone, 1.0, a[0], a[1], e[0], e[1], A, B);
+      const EdgeTerm other = edge_term(metric, kNone, 1.0, c[0], c[1], f[0], f[1], C, D);
+      REQUIRE((two.l[0] == one.l && two.l[1] == other.l && two.s[0] == one.s && two.s[1] == other.s));
+      REQUIRE((two.g11[0] == one.g11 && two.g12[1] == other.g12 && two.g22[0] == one.g22));
+    }
+  }
+}
+
+TEST_CASE("lengths told from the ends of an edge are near the integral, at kinks and jumps of the metric too") {
+  for (const char* text : kVarying) {
+    INFO(text);
+    auto metric = of_formula(text);
+    const auto field = *MetricField<2>::from_formula(text);
+    double sum = 0.0, most = 0.0;
+    for (const auto& [p, q] : some_edges(field, 1000)) {
+      const Point<2> e = q - p;
+      const double l = edge_term(metric, kNone, 0.5, p[0], p[1], e[0], e[1], jet_of(metric.jet(p)), jet_of(metric.jet(q))).l;
+      const double off = std::abs(l / edge_length(field, p, q) - 1.0);
+      sum += off;
+      most = std::max(most, off);
+    }
+    CHECK(sum / 1000 < 0.01);
+    if (std::string_view(text).find("if") == std::string_view::npos) CHECK(most < 0.08);
+  }
+}
+
+TEST_CASE("slopes of an edge's length and misalignment agree with finite differences where the metric is smooth") {
+  const char* text = kVarying[1];
+  Background metric(*MetricField<2>::from_formula(text), Point<2>(-1, -1), Point<2>(1, 1), {.tolerance = 1e-5, .smallest = 0.01});
+  const EnergyWeights weights{.alignment = 0.5, .rough = 0.5};
+  double worst = 0.0, sum = 0.0;  // the change of the metric is told from the ends as well
+  for (const auto& [p, q] : some_edges(*MetricField<2>::from_formula(text), 200)) {
+    const auto term = [&](const Point<2>& x) {
+      return edge_term(metric, kNone, weights.rough, x[0], x[1], q[0] - x[0], q[1] - x[1], jet_of(metric.jet(x)), jet_of(metric.jet(q)));
+    };
+    const EdgeTerm here = term(p);
+    const EdgeSlope d = edge_slope(metric, kNone, weights, p[0], p[1], q[0] - p[0], q[1] - p[1], here, jet_of(metric.jet(p)),
+                                   jet_of(metric.jet(q)));
+    for (int axis = 0; axis < 2; ++axis) {
+      Point<2> step = Point<2>::Zero();
+      step[axis] = 1e-5;
+      const EdgeTerm up = term(p + step), down = term(p - step);
+      const double size = 1.0 / (q - p).norm();
+      for (const double off : {(up.l - down.l) / 2e-5 / here.l - (axis == 0 ? d.lx : d.ly),
+                               (up.s - down.s) / 2e-5 - (axis == 0 ? d.sx : d.sy)}) {
+        worst = std::max(worst, std::abs(off) / size);
+        sum += std::abs(off) / size;
+      }
+    }
+  }
+  CHECK(sum / 800 < 0.01);
+  CHECK(worst < 0.1);
 }
 
 TEST_CASE("moves lower the energy that they say they lower, and invert nothing") {

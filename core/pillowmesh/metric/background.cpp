@@ -19,13 +19,14 @@ double difference(const SizeTensor& H, const SizeTensor& K) {
 
 /// The interpolant at the four corners in place of the one at nine points: it cannot overshoot, so that H stays positive
 /// definite where the metric jumps.
-void make_bilinear(std::array<std::array<double, 9>, 3>& coefficients) {
+void make_bilinear(std::array<std::array<float, 9>, 3>& coefficients) {
   for (auto& k : coefficients) {
-    const auto value = [&](double u, double v) {
+    const auto value = [&](double u, double v) -> double {
       return (k[0] + u * k[1] + k[2]) + v * (k[3] + u * k[4] + k[5]) + (k[6] + u * k[7] + k[8]);
     };
     const double a = value(-1, -1), b = value(1, -1), c = value(-1, 1), d = value(1, 1);
-    k = {0.25 * (a + b + c + d), 0.25 * (b + d - a - c), 0, 0.25 * (c + d - a - b), 0.25 * (a + d - b - c), 0, 0, 0, 0};
+    const std::array<double, 9> bilinear{0.25 * (a + b + c + d), 0.25 * (b + d - a - c), 0, 0.25 * (c + d - a - b), 0.25 * (a + d - b - c), 0, 0, 0, 0};
+    std::copy(bilinear.begin(), bilinear.end(), k.begin());
   }
 }
 
@@ -56,10 +57,9 @@ Background::Background(MetricField<2> field, const Point<2>& low, const Point<2>
       for (int k = 0; k < 4; ++k) nodes_[(j + (k >> 1)) * kRoots + i + (k & 1)] = nodes_[first + k];
       nodes_.resize(first);
     }
-  descend(low);
 }
 
-Background::Place Background::descend(const Point<2>& p) {
+Background::Place Background::descend(const Point<2>& p, Index& leaf) {
   const double fx = std::clamp((p[0] - low_[0]) / cell_[0], 0.0, double{kRoots});
   const double fy = std::clamp((p[1] - low_[1]) / cell_[1], 0.0, double{kRoots});
   const int i = std::min(static_cast<int>(fx), kRoots - 1), j = std::min(static_cast<int>(fy), kRoots - 1);
@@ -80,10 +80,10 @@ Background::Place Background::descend(const Point<2>& p) {
     column = 2 * column + right;
     row = 2 * row + up;
   }
-  last_ = ~nodes_[n].child;
+  leaf = ~nodes_[n].child;  // one that is never divided
   // Not u and v: they are rounded otherwise, and outside of the box they are not those of p.
   const Point<2> inside(low_[0] + fx * cell_[0], low_[1] + fy * cell_[1]);
-  return place(leaves_[last_], fx > 0 && fx < kRoots && fy > 0 && fy < kRoots ? p : inside);
+  return place(leaves_[leaf], fx > 0 && fx < kRoots && fy > 0 && fy < kRoots ? p : inside);
 }
 
 void Background::divide(Index node, double x, double y, double half_x, double half_y) {
@@ -125,7 +125,7 @@ void Background::make_children(Index first, double x, double y, double half_x, d
         const double l = f[i], m = f[3 + i], r = f[6 + i];
         f[i] = m, f[3 + i] = 0.5 * (r - l), f[6 + i] = 0.5 * (r + l) - m;
       }
-      leaf.k[e] = f;
+      std::copy(f.begin(), f.end(), leaf.k[e].begin());
     }
     double worst = 0.0, size = 1e300;
     for (int q = 0; q < 4; ++q) {
@@ -148,7 +148,7 @@ SizeTensor Background::evaluate(const Place& at) {
   const double u = at.u, v = at.v;
   std::array<double, 3> out;
   for (int e = 0; e < 3; ++e) {
-    const auto& k = at.leaf->k[e];
+    const std::array<double, 9> k = at.coefficients(e);
     out[e] = (k[0] + u * (k[1] + u * k[2])) + v * ((k[3] + u * (k[4] + u * k[5])) + v * (k[6] + u * (k[7] + u * k[8])));
   }
   return {out[0], out[1], out[2]};
@@ -158,7 +158,7 @@ SizeJet Background::evaluate_jet(const Place& at) {
   const double u = at.u, v = at.v;
   std::array<double, 3> f, fu, fv;
   for (int e = 0; e < 3; ++e) {
-    const auto& k = at.leaf->k[e];
+    const std::array<double, 9> k = at.coefficients(e);
     const double r0 = k[0] + u * (k[1] + u * k[2]), r1 = k[3] + u * (k[4] + u * k[5]), r2 = k[6] + u * (k[7] + u * k[8]);
     const double s0 = k[1] + 2.0 * u * k[2], s1 = k[4] + 2.0 * u * k[5], s2 = k[7] + 2.0 * u * k[8];
     f[e] = r0 + v * (r1 + v * r2);

@@ -43,15 +43,17 @@ class Background {
   Background(MetricField<2> field, const Point<2>& low, const Point<2>& high, const BackgroundOptions& options = {});
 
   /// Cost: about 20 ns; where nobody asked before, 41 evaluations of the metric for each level that is new.
-  SizeTensor at(const Point<2>& p) { return evaluate(locate(p)); }
-  SizeJet jet(const Point<2>& p) { return evaluate_jet(locate(p)); }
+  SizeTensor at(const Point<2>& p) { return evaluate(locate(p, last_)); }
+  SizeJet jet(const Point<2>& p) { return evaluate_jet(locate(p, last_)); }
+  /// The same, less than that where p is near the point that `hint` (kNone at first) was last used for.
+  SizeJet jet(const Point<2>& p, Index& hint) { return evaluate_jet(locate(p, hint)); }
 
   [[nodiscard]] std::size_t leaves() const { return leaves_.size(); }
 
  private:
   /// Coefficients of u^i v^j of a, b and c at [3 * j + i], u and v from -1 to 1 in the leaf.
   struct Leaf {
-    std::array<std::array<double, 9>, 3> k;
+    std::array<std::array<float, 9>, 3> k;
     double x, y, scale_x, scale_y;  ///< u = (p[0] - x) scale_x
   };
   /// child >= 0: the first of four nodes; else leaf ~child, which may have to be divided.
@@ -62,17 +64,25 @@ class Background {
   struct Place {
     const Leaf* leaf;
     double u, v;
+    [[nodiscard]] std::array<double, 9> coefficients(int e) const {
+      std::array<double, 9> k;
+      for (int i = 0; i < 9; ++i) k[i] = leaf->k[e][i];
+      return k;
+    }
   };
 
   static Place place(const Leaf& leaf, const Point<2>& p) {
     return {&leaf, (p[0] - leaf.x) * leaf.scale_x, (p[1] - leaf.y) * leaf.scale_y};
   }
-  Place locate(const Point<2>& p) {
+  Place locate(const Point<2>& p, Index& hint) {
     // Who asks for one point often asks for another near it.
-    const Place at = place(leaves_[last_], p);
-    return std::abs(at.u) < 1.0 && std::abs(at.v) < 1.0 ? at : descend(p);
+    if (hint >= 0) {
+      const Place at = place(leaves_[hint], p);
+      if (std::abs(at.u) < 1.0 && std::abs(at.v) < 1.0) return at;
+    }
+    return descend(p, hint);
   }
-  Place descend(const Point<2>& p);
+  Place descend(const Point<2>& p, Index& leaf);
   void divide(Index node, double x, double y, double half_x, double half_y);
   void make_children(Index first, double x, double y, double half_x, double half_y);
   static SizeTensor evaluate(const Place& at);
@@ -83,7 +93,7 @@ class Background {
   Point<2> low_, cell_;
   std::vector<Node> nodes_;
   std::vector<Leaf> leaves_;
-  Index last_ = 0;  ///< a leaf that is not to be divided
+  Index last_ = kNone;
 };
 
 }  // namespace pillowmesh

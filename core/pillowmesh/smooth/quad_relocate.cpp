@@ -5,25 +5,6 @@
 #include "pillowmesh/mesh/slide.h"
 
 namespace pillowmesh {
-namespace {
-
-/// Edge from p (sizes P) to q (sizes Q) by Simpson's rule, by Boole's points where its three values disagree.
-EdgeTerm edge_term(Background& background, const Point<2>& p, const SizeTensor& P, const Point<2>& q,
-                   const SizeTensor& Q, bool aligned) {
-  const Point<2> e = q - p;
-  const SizeTensor H = background.at(0.5 * (p + q));
-  const double a = length_in(P, e), m = length_in(H, e), b = length_in(Q, e);
-  const Shape2 G = shape_of(H);
-  EdgeTerm term{(a + b + 4.0 * m) / 6.0, G.g11, G.g12, G.g22, aligned ? misalignment(G, e) : 0.0};
-  if (std::abs(a + b - 2.0 * m) > 0.3 * term.l) {
-    const double s = length_in(background.at(0.25 * q + 0.75 * p), e), t = length_in(background.at(0.25 * p + 0.75 * q), e);
-    term.l = (a + b + 4.0 * (s + t) + 2.0 * m) / 12.0;
-  }
-  return term;
-}
-
-}  // namespace
-
 QuadRelocator::QuadRelocator(Mesh<2>& mesh, Background& background, const Weights& weights)
     : mesh_(mesh), background_(background) {
   measure_all(weights);
@@ -32,11 +13,12 @@ QuadRelocator::QuadRelocator(Mesh<2>& mesh, Background& background, const Weight
 void QuadRelocator::measure_all(const Weights& weights) {
   weights_ = weights;
   size_.resize(mesh_.points.size());
+  leaf_.resize(mesh_.points.size(), kNone);
   edges_.resize(mesh_.cells.size());
   energy_.assign(mesh_.cells.size(), 0.0);
   begin();
   for (VertexId v = 0; v < mesh_.vertex_count(); ++v)
-    if (mesh_.vertex_cell[v] != kNone) size_[v] = background_.at(mesh_.points[v]);
+    if (mesh_.vertex_cell[v] != kNone) size_[v] = jet_of(background_.jet(mesh_.points[v], leaf_[v]));
   for (CellId c = 0; c < mesh_.cell_count(); ++c)
     if (mesh_.alive(c)) measure_cell(c);
   begin();
@@ -84,9 +66,12 @@ void QuadRelocator::touch_vertex(VertexId v) {
 }
 
 void QuadRelocator::measure_vertex(VertexId v) {
-  if (v >= static_cast<VertexId>(size_.size())) size_.resize(mesh_.points.size());
+  if (v >= static_cast<VertexId>(size_.size())) {
+    size_.resize(mesh_.points.size());
+    leaf_.resize(mesh_.points.size(), kNone);
+  }
   touch_vertex(v);
-  size_[v] = background_.at(mesh_.points[v]);
+  size_[v] = jet_of(background_.jet(mesh_.points[v], leaf_[v]));
 }
 
 double QuadRelocator::measure_cell(CellId c) {
@@ -99,7 +84,8 @@ double QuadRelocator::measure_cell(CellId c) {
   for (int i = 0; i < 4; ++i) v[i] = around(mesh_, c, i);
   for (int i = 0; i < 4; ++i) {
     const VertexId p = v[i], q = v[(i + 1) & 3];
-    edges_[c][i] = edge_term(background_, mesh_.points[p], size_[p], mesh_.points[q], size_[q], weights_.alignment > 0.0);
+    const Point<2> e = mesh_.points[q] - mesh_.points[p];
+    edges_[c][i] = edge_term(background_, leaf_[p], weights_.rough, mesh_.points[p][0], mesh_.points[p][1], e[0], e[1], size_[p], size_[q]);
   }
   add_up(c);
   return energy_[c];
@@ -112,16 +98,18 @@ void QuadRelocator::add_up(CellId c) {
   for (int i = 0; i < 4; ++i)
     sum += corner_energy(p[(i + 1) & 3] - p[i], edges_[c][i], p[(i + 3) & 3] - p[i], edges_[c][(i + 3) & 3], weights_);
   if (shaped()) {
-    std::array<SizeTensor, 4> H;
+    std::array<Jet, 4> H;
     for (int i = 0; i < 4; ++i) H[i] = size_[around(mesh_, c, i)];
-    const std::array<double, 2> across{diagonal(p[1], H[1], p[3], H[3]), diagonal(p[0], H[0], p[2], H[2])};
-    for (int i = 0; i < 4; ++i) sum += shape_energy(edges_[c][i], edges_[c][(i + 3) & 3], across[i & 1], weights_);
+    const std::array<double, 2> across{length(p[1], H[1], p[3], H[3]), length(p[0], H[0], p[2], H[2])};
+    for (int i = 0; i < 4; ++i) sum += shape_energy(edges_[c][i].l, edges_[c][(i + 3) & 3].l, across[i & 1], weights_);
   }
   energy_[c] = sum;
 }
 
-double QuadRelocator::diagonal(const Point<2>& p, const SizeTensor& P, const Point<2>& q, const SizeTensor& Q) {
-  return edge_term(background_, p, P, q, Q, false).l;
+double QuadRelocator::length(const Point<2>& p, const Jet& P, const Point<2>& q, const Jet& Q) {
+  const Point<2> e = q - p;
+  Index leaf = kNone;
+  return edge_term(background_, leaf, weights_.rough, p[0], p[1], e[0], e[1], P, Q).l;
 }
 
 void QuadRelocator::refresh(CellId c) {
@@ -144,56 +132,110 @@ double QuadRelocator::change() const {
 bool QuadRelocator::collect(VertexId v) {
   if (!find_star(mesh_, v, star_)) return false;
   spoke_count_ = star_.count + (star_.closed ? 0 : 1);
+  const auto spoke = [&](int k, CellId c, int place, int side) {
+    const VertexId w = around(mesh_, c, place);
+    spokes_.end[k] = w;
+    spokes_.qx[k] = mesh_.points[w][0];
+    spokes_.qy[k] = mesh_.points[w][1];
+    spokes_.jet[k] = size_[w];
+    now_.set(k, edges_[c][side & 3]);
+  };
   for (int k = 0; k < star_.count; ++k) {
     const CellId c = star_.cell[k];
     const int i = star_.place[k];
-    Spoke& s = spokes_[k];
-    s.end = around(mesh_, c, i + 1);
-    s.q = mesh_.points[s.end];
-    s.H = size_[s.end];
-    s.now = edges_[c][i];
-    if (k + 1 == star_.count && !star_.closed) {
-      Spoke& last = spokes_[k + 1];
-      last.end = around(mesh_, c, i + 3);
-      last.q = mesh_.points[last.end];
-      last.H = size_[last.end];
-      last.now = edges_[c][(i + 3) & 3];
-    }
-    Wedge& w = wedges_[k];
-    w.cell = c;
-    w.place = i;
+    spoke(k, c, i + 1, i);
+    if (k + 1 == star_.count && !star_.closed) spoke(k + 1, c, i + 3, i + 3);
     const VertexId o = around(mesh_, c, i + 2);
-    w.o = mesh_.points[o];
-    w.H = size_[o];
-    w.far1 = edges_[c][(i + 1) & 3];
-    w.far2 = edges_[c][(i + 2) & 3];
+    wedges_.ox[k] = mesh_.points[o][0];
+    wedges_.oy[k] = mesh_.points[o][1];
+    wedges_.jet[k] = size_[o];
+    wedges_.far.set(2 * k, edges_[c][(i + 1) & 3]);
+    wedges_.far.set(2 * k + 1, edges_[c][(i + 2) & 3]);
+  }
+  // Pairs of spokes begin anywhere: the next after the last is the first. On the boundary what comes after the last is
+  // computed, too, and of no use.
+  for (int extra = 0; extra < 2; ++extra) {
+    const int from = star_.closed ? extra : spoke_count_ - 1, to = spoke_count_ + extra;
+    spokes_.end[to] = spokes_.end[from];
+    spokes_.qx[to] = spokes_.qx[from];
+    spokes_.qy[to] = spokes_.qy[from];
+    spokes_.jet[to] = spokes_.jet[from];
+    now_.copy(from, to);
+  }
+  for (int k = 0; k < star_.count; ++k) {
+    wedges_.fx[2 * k] = wedges_.ox[k] - spokes_.qx[k];
+    wedges_.fy[2 * k] = wedges_.oy[k] - spokes_.qy[k];
+    wedges_.fx[2 * k + 1] = spokes_.qx[k + 1] - wedges_.ox[k];
+    wedges_.fy[2 * k + 1] = spokes_.qy[k + 1] - wedges_.oy[k];
   }
   if (shaped())
-    for (int k = 0; k < star_.count; ++k) {
-      const Spoke &a = spokes_[k], &b = spokes_[k + 1 == spoke_count_ ? 0 : k + 1];
-      wedges_[k].diagonal = diagonal(a.q, a.H, b.q, b.H);
-    }
+    for (int k = 0; k < star_.count; ++k)
+      wedges_.across[k] = length({spokes_.qx[k], spokes_.qy[k]}, spokes_.jet[k], {spokes_.qx[k + 1], spokes_.qy[k + 1]},
+                                 spokes_.jet[k + 1]);
   return true;
 }
 
+/// Sizes at the ends of spokes k and k + 1.
+JetOf<Pair> QuadRelocator::jets(int k) const {
+  const Jet &p = spokes_.jet[k], &q = spokes_.jet[k + 1];
+  return {pair_of(p.a, q.a),   pair_of(p.b, q.b),   pair_of(p.c, q.c),   pair_of(p.ax, q.ax), pair_of(p.bx, q.bx),
+          pair_of(p.cx, q.cx), pair_of(p.ay, q.ay), pair_of(p.by, q.by), pair_of(p.cy, q.cy)};
+}
+
+namespace {
+
+JetOf<Pair> twice(const JetOf<double>& j) {
+  return {same<Pair>(j.a),  same<Pair>(j.b),  same<Pair>(j.c),  same<Pair>(j.ax), same<Pair>(j.bx),
+          same<Pair>(j.cx), same<Pair>(j.ay), same<Pair>(j.by), same<Pair>(j.cy)};
+}
+
+}  // namespace
+
 /// Energy of the corners with the vertex at x; what is above `limit` is not added up to the end.
 double QuadRelocator::try_at(const Point<2>& x, double limit) {
-  size_at_ = background_.at(x);
-  const bool aligned = weights_.alignment > 0.0;
-  for (int k = 0; k < spoke_count_; ++k) spokes_[k].next = edge_term(background_, x, size_at_, spokes_[k].q, spokes_[k].H, aligned);
-  double sum = 0.0;
-  for (int k = 0; k < star_.count; ++k) {
-    const Spoke &a = spokes_[k], &b = spokes_[k + 1 == spoke_count_ ? 0 : k + 1];
-    Wedge& w = wedges_[k];
-    w.energy = corner_energy(a.q - x, a.next, b.q - x, b.next, weights_) +
-               corner_energy(w.o - a.q, w.far1, x - a.q, a.next, weights_) +
-               corner_energy(x - b.q, b.next, w.o - b.q, w.far2, weights_);
-    if (shaped()) {
-      const double out = diagonal(x, size_at_, w.o, w.H);
-      w.energy += shape_energy(a.next, b.next, w.diagonal, weights_) + shape_energy(w.far1, a.next, out, weights_) +
-                  shape_energy(b.next, w.far2, out, weights_);
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const bool barrier = weights_.delta == 0.0;
+  const int n = star_.count;
+  std::array<double, kMost> ex, ey;
+  for (int k = 0; k < spoke_count_ + 2; ++k) ex[k] = spokes_.qx[k] - x[0], ey[k] = spokes_.qy[k] - x[1];
+  // What is inside out needs no metric.
+  if (barrier)
+    for (int k = 0; k < n; ++k) {
+      const double *fx = &wedges_.fx[2 * k], *fy = &wedges_.fy[2 * k];
+      if (!(ex[k] * ey[k + 1] - ey[k] * ex[k + 1] > 0) || !(fy[0] * ex[k] - fx[0] * ey[k] > 0) ||
+          !(fy[1] * ex[k + 1] - fx[1] * ey[k + 1] > 0))
+        return infinite;
     }
-    sum += w.energy;
+  size_at_ = jet_of(background_.jet(x, leaf_at_));
+  const JetOf<Pair> here = twice(size_at_);
+  for (int k = 0; k < spoke_count_; k += 2)
+    next_.store_pair(k, edge_term(background_, leaf_at_, weights_.rough, same<Pair>(x[0]), same<Pair>(x[1]), load(&ex[k]), load(&ey[k]), here, jets(k)));
+  if (star_.closed) {
+    next_.copy(0, spoke_count_);
+    next_.copy(1, spoke_count_ + 1);
+  } else {
+    if ((spoke_count_ & 1) == 0) next_.copy(spoke_count_ - 1, spoke_count_);
+    next_.copy(spoke_count_ - 1, spoke_count_ + 1);
+  }
+  double sum = 0.0;
+  for (int k = 0; k < n; k += 2) {
+    const Pair e1x = load(&ex[k]), e1y = load(&ey[k]), e2x = load(&ex[k + 1]), e2y = load(&ey[k + 1]);
+    const EdgeTermOf<Pair> a = next_.pair(k), b = next_.pair(k + 1);
+    const Pair near = corner_energy<Pair>(e1x * e2y - e1y * e2x, e1x, e1y, a, e2x, e2y, b, weights_);
+    for (int i = 0; i < 2 && k + i < n; ++i) {
+      const int j = k + i;
+      const Pair fx = load(&wedges_.fx[2 * j]), fy = load(&wedges_.fy[2 * j]), sx = load(&ex[j]), sy = load(&ey[j]);
+      const Pair far = corner_energy<Pair>(fy * sx - fx * sy, sx, sy, i == 0 ? a : b, fx, fy, wedges_.far.pair(2 * j), weights_);
+      double E = near[i] + (far[0] + far[1]);
+      if (shaped()) {
+        const double out = length(x, size_at_, {wedges_.ox[j], wedges_.oy[j]}, wedges_.jet[j]);
+        E += shape_energy(next_.l[j], next_.l[j + 1], wedges_.across[j], weights_) +
+             shape_energy(wedges_.far.l[2 * j], next_.l[j], out, weights_) +
+             shape_energy(next_.l[j + 1], wedges_.far.l[2 * j + 1], out, weights_);
+      }
+      wedges_.energy[j] = E;
+      sum += E;
+    }
     if (!(sum < limit)) break;
   }
   return sum;
@@ -201,46 +243,92 @@ double QuadRelocator::try_at(const Point<2>& x, double limit) {
 
 bool QuadRelocator::derivatives(VertexId v, Derivatives& sum) {
   if (!collect(v)) return false;
+  leaf_at_ = leaf_[v];
   const Point<2> x = mesh_.points[v];
-
-  // Derivatives of the spokes' lengths and alignments.
-  const SizeJet here = background_.jet(x);
-  std::array<EdgeSlope, OrderedStar::most + 1> slope;
-  for (int k = 0; k < spoke_count_; ++k) {
-    const Spoke& s = spokes_[k];
-    slope[k] = edge_slope(s.q - x, s.now, here, background_.jet(0.5 * (x + s.q)), s.H, weights_);
+  const JetOf<Pair> here = twice(size_[v]);
+  std::array<double, kMost> ex, ey;
+  for (int k = 0; k < spoke_count_ + 2; ++k) ex[k] = spokes_.qx[k] - x[0], ey[k] = spokes_.qy[k] - x[1];
+  std::array<std::array<double, kMost>, 6> slopes;
+  for (int k = 0; k < spoke_count_; k += 2) {
+    const EdgeSlopeOf<Pair> d = edge_slope(background_, leaf_at_, weights_, same<Pair>(x[0]), same<Pair>(x[1]), load(&ex[k]), load(&ey[k]),
+                                             now_.pair(k), here, jets(k));
+    store(&slopes[0][k], d.lx), store(&slopes[1][k], d.ly), store(&slopes[2][k], d.sx), store(&slopes[3][k], d.sy);
+    store(&slopes[4][k], d.frozen), store(&slopes[5][k], d.turn);
   }
+  for (auto& row : slopes)
+    for (int extra = 0; extra < 2; ++extra) row[spoke_count_ + extra] = row[star_.closed ? extra : spoke_count_ - 1];
+  const auto slope = [&](int k) {
+    return EdgeSlopeOf<Pair>{load(&slopes[0][k]), load(&slopes[1][k]), load(&slopes[2][k]),
+                             load(&slopes[3][k]), load(&slopes[4][k]), load(&slopes[5][k])};
+  };
 
   // Sum over the corners that change.
-  sum = {};
-  for (int k = 0; k < star_.count; ++k) {
-    const int n = k + 1 == spoke_count_ ? 0 : k + 1;
-    const Spoke &a = spokes_[k], &b = spokes_[n];
-    const Wedge& w = wedges_[k];
-    // cross(a.q - x, b.q - x): its gradient is the edge from b to a turned.
-    add_corner(a.q - x, a.now, &slope[k], b.q - x, b.now, &slope[n], Point<2>(a.q[1] - b.q[1], b.q[0] - a.q[0]), weights_, sum);
-    // At the ends of the spokes the edge points the other way.
-    EdgeSlope back = slope[k];
-    back.sign = 1.0;
-    const Point<2> f = w.o - a.q;
-    add_corner(f, w.far1, nullptr, x - a.q, a.now, &back, Point<2>(-f[1], f[0]), weights_, sum);
-    EdgeSlope forth = slope[n];
-    forth.sign = 1.0;
-    const Point<2> g = w.o - b.q;
-    add_corner(x - b.q, b.now, &forth, g, w.far2, nullptr, Point<2>(g[1], -g[0]), weights_, sum);
-    if (!shaped()) continue;
-    const EdgeTerm out = edge_term(background_, x, here.H, w.o, w.H, false);
-    const EdgeSlope dout = edge_slope(w.o - x, out, here, background_.jet(0.5 * (x + w.o)), w.H, {});
-    add_shape(a.now, &slope[k], b.now, &slope[n], w.diagonal, nullptr, weights_, sum);
-    add_shape(w.far1, nullptr, a.now, &slope[k], out.l, &dout, weights_, sum);
-    add_shape(b.now, &slope[n], w.far2, nullptr, out.l, &dout, weights_, sum);
+  QuadDerivativesOf<Pair> both, last;
+  for (int k = 0; k < star_.count; k += 2) {
+    const Pair e1x = load(&ex[k]), e1y = load(&ey[k]), e2x = load(&ex[k + 1]), e2y = load(&ey[k + 1]);
+    const EdgeTermOf<Pair> a = now_.pair(k), b = now_.pair(k + 1);
+    const EdgeSlopeOf<Pair> da = slope(k), db = slope(k + 1);
+    // cross(q1 - x, q2 - x): its gradient is the edge from q2 to q1 turned.
+    add_corner<2>(Pair(e1x * e2y - e1y * e2x), Pair(e1y - e2y), Pair(e2x - e1x), e1x, e1y, a, da, e2x, e2y, b, db, weights_,
+                  k + 1 < star_.count ? both : last);
+    for (int i = 0; i < 2 && k + i < star_.count; ++i) {
+      const int j = k + i;
+      const Pair fx = load(&wedges_.fx[2 * j]), fy = load(&wedges_.fy[2 * j]), sx = load(&ex[j]), sy = load(&ey[j]);
+      // cross(f, x - q) where the spoke is the second edge; where it is the first f points the other way.
+      add_corner<1>(Pair(fy * sx - fx * sy), Pair(-fy), fx, sx, sy, i == 0 ? a : b, i == 0 ? da : db, fx, fy,
+                    wedges_.far.pair(2 * j), da, weights_, both);
+    }
   }
-
+  sum = {};
+  sum.add(both, 0);
+  sum.add(both, 1);
+  if (star_.count & 1) sum.add(last, 0);
+  if (shaped()) add_shapes(x, size_[v], sum);
   return true;
+}
+
+void QuadRelocator::add_shapes(const Point<2>& x, const Jet& here, Derivatives& sum) {
+  const auto gradient = [&](const Point<2>& e, const EdgeTerm& term, const Jet& there) {
+    const EdgeSlope d = edge_slope(background_, leaf_at_, weights_, x[0], x[1], e[0], e[1], term, here, there);
+    return Point<2>(term.l * d.lx, term.l * d.ly);
+  };
+  const auto spoke = [&](int k) {
+    return gradient({spokes_.qx[k] - x[0], spokes_.qy[k] - x[1]}, now_.get(k), spokes_.jet[k]);
+  };
+  for (int k = 0; k < star_.count; ++k) {
+    const Point<2> o(wedges_.ox[k] - x[0], wedges_.oy[k] - x[1]);
+    const EdgeTerm out = edge_term(background_, leaf_at_, weights_.rough, x[0], x[1], o[0], o[1], here, wedges_.jet[k]);
+    const Point<2> da = spoke(k), db = spoke(k + 1), dout = gradient(o, out, wedges_.jet[k]);
+    const double a = now_.l[k], b = now_.l[k + 1];
+    add_shape(a, &da, b, &db, wedges_.across[k], nullptr, weights_, sum);
+    add_shape(wedges_.far.l[2 * k], nullptr, a, &da, out.l, &dout, weights_, sum);
+    add_shape(b, &db, wedges_.far.l[2 * k + 1], nullptr, out.l, &dout, weights_, sum);
+  }
 }
 
 Point<2> curve_direction(const Mesh<2>& mesh, VertexId v) {
   return tangents(mesh, v)[0].normalized();
+}
+
+/// Puts the vertex where it was tried last.
+void QuadRelocator::keep(VertexId v, const Point<2>& x) {
+  if (journal != nullptr) journal->touch(v);
+  touch_vertex(v);
+  size_[v] = size_at_;
+  leaf_[v] = leaf_at_;
+  mesh_.points[v] = x;
+  for (int k = 0; k < star_.count; ++k) {
+    const CellId c = star_.cell[k];
+    const int i = star_.place[k];
+    touch_cell(c);
+    edges_[c][i] = next_.get(k);
+    edges_[c][(i + 3) & 3] = next_.get(k + 1);
+    const EdgeTerm far1 = wedges_.far.get(2 * k), far2 = wedges_.far.get(2 * k + 1);
+    const Point<2> o(wedges_.ox[k], wedges_.oy[k]);
+    energy_[c] = wedges_.energy[k] + corner_energy(Point<2>(spokes_.qx[k + 1] - o[0], spokes_.qy[k + 1] - o[1]), far2,
+                                                   Point<2>(spokes_.qx[k] - o[0], spokes_.qy[k] - o[1]), far1, weights_);
+    if (shaped()) energy_[c] += shape_energy(far2.l, far1.l, wedges_.across[k], weights_);
+  }
 }
 
 double QuadRelocator::relocate(VertexId v) {
@@ -261,21 +349,8 @@ double QuadRelocator::relocate(VertexId v) {
     if (support.dim == 1) y = slide(*mesh_.geometry, support, anchor, y);
     const double after = try_at(y, before);
     if (!(after < before + 1e-4 * scale * std::min(0.0, slope_along))) continue;
-    if (journal != nullptr) journal->touch(v);
-    touch_vertex(v);
-    size_[v] = size_at_;
-    mesh_.points[v] = y;
+    keep(v, y);
     mesh_.anchor[v] = anchor;
-    for (int k = 0; k < star_.count; ++k) {
-      const int n = k + 1 == spoke_count_ ? 0 : k + 1;
-      const Wedge& w = wedges_[k];
-      touch_cell(w.cell);
-      edges_[w.cell][w.place] = spokes_[k].next;
-      edges_[w.cell][(w.place + 3) & 3] = spokes_[n].next;
-      const Spoke &a = spokes_[k], &b = spokes_[n];
-      energy_[w.cell] = w.energy + corner_energy(b.q - w.o, w.far2, a.q - w.o, w.far1, weights_);
-      if (shaped()) energy_[w.cell] += shape_energy(w.far2, w.far1, w.diagonal, weights_);
-    }
     return before - after;
   }
   return 0.0;

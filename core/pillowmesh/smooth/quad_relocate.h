@@ -61,26 +61,46 @@ class QuadRelocator {
   double rest = 1e-6;
 
  private:
-  struct Spoke {
-    VertexId end;
-    Point<2> q;      ///< position of its end
-    SizeTensor H;    ///< there
-    EdgeTerm now, next;
+  using Jet = JetOf<double>;
+  static constexpr int kMost = OrderedStar::most + 3;  ///< spokes; the first two come again after the last
+  /// The edges at the vertex, counterclockwise, each number in a row of its own.
+  struct Spokes {
+    std::array<VertexId, kMost> end;
+    std::array<double, kMost> qx, qy;     ///< positions of the ends
+    std::array<JetOf<double>, kMost> jet;  ///< sizes there
   };
-  struct Wedge {
-    CellId cell;
-    int place;
-    Point<2> o;       ///< the opposite vertex
-    SizeTensor H;     ///< there
-    double diagonal;  ///< from spoke to spoke, where shapes count
-    EdgeTerm far1, far2;  ///< next -> opposite, opposite -> previous
-    double energy;        ///< of the three corners that change, where the vertex was tried last
+  /// Edge terms, each number in a row of its own.
+  template <int N>
+  struct Terms {
+    std::array<double, N> l, g11, g12, g22, s;
+    void set(int k, const EdgeTerm& t) { l[k] = t.l, g11[k] = t.g11, g12[k] = t.g12, g22[k] = t.g22, s[k] = t.s; }
+    [[nodiscard]] EdgeTerm get(int k) const { return {l[k], g11[k], g12[k], g22[k], s[k]}; }
+    [[nodiscard]] EdgeTermOf<Pair> pair(int k) const {
+      return {load(&l[k]), load(&g11[k]), load(&g12[k]), load(&g22[k]), load(&s[k])};
+    }
+    void store_pair(int k, const EdgeTermOf<Pair>& t) {
+      store(&l[k], t.l), store(&g11[k], t.g11), store(&g12[k], t.g12), store(&g22[k], t.g22), store(&s[k], t.s);
+    }
+    void copy(int from, int to) { set(to, get(from)); }
+  };
+  /// The cells at the vertex. Its two sides away from the vertex, each as seen from the end of a spoke, that after the
+  /// cell's first spoke and, turned around, that before its second: 2 k and 2 k + 1.
+  struct Wedges {
+    std::array<double, OrderedStar::most> ox, oy;  ///< the opposite vertex
+    std::array<Jet, OrderedStar::most> jet;        ///< sizes there
+    std::array<double, 2 * OrderedStar::most> fx, fy;
+    Terms<2 * OrderedStar::most> far;
+    std::array<double, OrderedStar::most> across;  ///< from spoke to spoke, where shapes count
+    std::array<double, OrderedStar::most + 1> energy;  ///< of the three corners that change, where the vertex was tried last
   };
 
   bool collect(VertexId v);
   [[nodiscard]] bool shaped() const { return weights_.shape > 0.0; }
-  [[nodiscard]] double diagonal(const Point<2>& p, const SizeTensor& P, const Point<2>& q, const SizeTensor& Q);
+  [[nodiscard]] double length(const Point<2>& p, const Jet& P, const Point<2>& q, const Jet& Q);
+  [[nodiscard]] JetOf<Pair> jets(int k) const;
   [[nodiscard]] double try_at(const Point<2>& x, double limit);
+  void keep(VertexId v, const Point<2>& x);
+  void add_shapes(const Point<2>& x, const Jet& here, Derivatives& sum);
   void touch_cell(CellId c);
   void touch_vertex(VertexId v);
   void add_up(CellId c);
@@ -88,15 +108,18 @@ class QuadRelocator {
   Mesh<2>& mesh_;
   Background& background_;
   Weights weights_;
-  std::vector<SizeTensor> size_;                ///< per vertex
+  std::vector<Jet> size_;                       ///< per vertex
+  std::vector<Index> leaf_;                     ///< of the background, where a vertex was looked up last
   std::vector<std::array<EdgeTerm, 4>> edges_;  ///< per cell and side
   std::vector<double> energy_;                  ///< per cell
 
   OrderedStar star_;
-  std::array<Spoke, OrderedStar::most + 1> spokes_;
-  std::array<Wedge, OrderedStar::most> wedges_;
+  Spokes spokes_;
+  Terms<kMost> now_, next_;  ///< of the spokes
+  Wedges wedges_;
   int spoke_count_ = 0;
-  SizeTensor size_at_{};
+  Jet size_at_{};
+  Index leaf_at_ = kNone;
 
   Index stamp_ = 0;
   std::vector<Index> cell_stamp_, vertex_stamp_;
@@ -104,7 +127,7 @@ class QuadRelocator {
   std::vector<std::array<EdgeTerm, 4>> old_edges_;
   std::vector<double> old_energy_;
   std::vector<VertexId> old_vertices_;
-  std::vector<SizeTensor> old_sizes_;
+  std::vector<Jet> old_sizes_;
 };
 
 }  // namespace pillowmesh
