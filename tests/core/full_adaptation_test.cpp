@@ -79,6 +79,35 @@ TEST_CASE("full adaptation with effort normal meets sizes and shapes that refine
   CHECK(circle.misalignment < 0.22);
 }
 
+TEST_CASE("a coarse mesh is adapted to larger sizes first and diced; one that fits the metric is not") {
+  const auto field = formula("h = 0.03 + 0.02*abs(x)");
+  AdaptOptions options = with(Effort::fast);
+  options.record = true;
+  const auto dices = [&](const Mesh<2>& mesh, Mesh<2>& result) {
+    Adapter<2> adapter(mesh, field, options);
+    CHECK(adapter.run().ok());
+    int count = 0;
+    for (const auto& event : adapter.take_events()) count += event.kind == EventKind::dice;
+    result = adapter.mesh();
+    compact(result);
+    return count;
+  };
+  Mesh<2> fine, finer;
+  // Edges of .25 for sizes of about .035: 7 of them, and twice halved they are still too long.
+  CHECK(dices(make_grid<2>({4, 4}, Point<2>(0, 0), Point<2>(1, 1)), fine) == 2);
+  CHECK(dices(fine, finer) == 0);
+}
+
+TEST_CASE("rows are added that the whole mesh has to make room for") {
+  // 27 x 27 cells; dicing makes even numbers of rows alone.
+  const auto field = formula("h = 1/27");
+  const Mesh<2> mesh = adapted(make_grid<2>({4, 4}, Point<2>(0, 0), Point<2>(1, 1)), field, with(Effort::best));
+  const Report report = measure(mesh, field);
+  CHECK(report.irregular_vertices == 0);
+  CHECK(report.edge_length.cv < 0.001);
+  CHECK(report.cells == Approx(729).epsilon(0.08));
+}
+
 TEST_CASE("alignment turns edges to the metric's directions") {
   AdaptOptions free = with(Effort::normal), aligned = free;
   free.align = 0.0;

@@ -199,9 +199,9 @@ TEST_CASE("adapted with smooth geometry a hole gets round, with linear geometry 
   CHECK(checks::distance_from_geometry(linear) < 1e-14);
   CHECK(checks::distance_from_geometry(smooth) < 1e-14);
   const auto on_polygon = hole_radii(linear), on_circle = hole_radii(smooth);
-  CHECK(on_polygon.size() > 50);
+  CHECK(on_polygon.size() > 40);  // 50 edges of unit length would fit
   CHECK(*std::min_element(on_polygon.begin(), on_polygon.end()) < 0.3870);  // the chords' middles are at .3864
-  CHECK(on_circle.size() > 50);
+  CHECK(on_circle.size() > 40);
   for (const double r : on_circle) CHECK(std::abs(r - 0.4) < 1e-13);
   // The plate's straight sides are what they were.
   for (VertexId v = 0; v < smooth.vertex_count(); ++v) {

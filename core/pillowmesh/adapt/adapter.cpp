@@ -11,6 +11,7 @@
 #include "pillowmesh/adapt/schedule.h"
 #include "pillowmesh/adapt/stopwatch.h"
 #include "pillowmesh/adapt/tagging.h"
+#include "pillowmesh/mesh/compact.h"
 #include "pillowmesh/mesh/frozen.h"
 #include "pillowmesh/mesh/jacobian.h"
 #include "pillowmesh/mesh/smooth_geometry.h"
@@ -23,6 +24,8 @@
 
 namespace pillowmesh {
 namespace {
+
+constexpr int kMostMended = 2;
 
 enum class Stage { tag, layers, smooth_between, dice, smooth_end, polish, improve, done };
 
@@ -56,6 +59,9 @@ struct Adapter<Dim>::State {
   BufferLayer<Dim> buffer_layer;
   std::optional<Relocator<Dim>> relocator;
   std::unique_ptr<Schedule> schedule;  ///< full adaptation only
+  bool diced = false;     ///< the mesh was made from one that had been adapted: it only has to be mended
+  int mended = 0;         ///< how often edges had become too long in the end
+  int halvings = 0;  ///< full adaptation: how often the mesh is still to be diced in four
   int sweeps = 0;
   double energy = 0.0;  ///< after the last of them
   bool smoothed = false;  ///< the last smoothing is done; only a look at the lengths is left
@@ -82,6 +88,7 @@ struct Adapter<Dim>::State {
         recorder(options.record) {
     if (options.geometry == BoundaryShape::smooth) mesh.geometry = smooth_geometry(std::move(mesh.geometry));
     outcome = field.check(mesh.points);
+    if (outcome.ok() && full() && !mesh.frozen) halvings = halvings_to_come();
     target = aim();
     if (outcome.ok() && mesh.frozen && options.dice > 1)
       outcome = Status::usage("dicing would split what is frozen; leave out one of them");
@@ -115,7 +122,16 @@ struct Adapter<Dim>::State {
   }
 
   [[nodiscard]] MetricField<Dim> aim() const {
-    return continuation.approach(options.dice > 1 ? field.scaled(options.dice) : field);
+    const int coarser = options.dice << halvings;
+    return continuation.approach(coarser > 1 ? field.scaled(coarser) : field);
+  }
+
+  /// Full adaptation searches coarse meshes first, where that costs least: one whose edges are about as long as those of the
+  /// input, then finer ones, made by dicing, that only have to be mended.
+  [[nodiscard]] int halvings_to_come() const {
+    int n = 0;
+    for (double l = mean_edge_length(mesh, field); l >= 2.0; l *= 0.5) ++n;
+    return n;
   }
 
   /// The next step of continuation: smaller sizes, all edges to be looked at again, after smoothing for them.
@@ -300,19 +316,49 @@ struct Adapter<Dim>::State {
   void improve() {
     if constexpr (Dim == 2 && kHasFullAdaptation) {
       const Stopwatch watch(improve_seconds);
-      if (!schedule) schedule = std::make_unique<Schedule>(mesh, field, options, recorder, operations, iteration);
+      if (!schedule) schedule = std::make_unique<Schedule>(mesh, target, options, diced, halvings, recorder, operations, iteration);
       const bool more = schedule->step();
       report_progress(schedule->activity());
       if (more) return;
       schedule.reset();
+      if (halvings > 0) return halve();
       // What the layers could not shorten the operators may have, and the other way round.
       const double longest = longest_edge(mesh, target);
-      outcome = longest > options.threshold * (1.0 + kLongestEdgeTolerance)
-                    ? Status::limit_not_met("edges longer than the threshold remain")
-                    : Status{};
+      const bool met = longest <= options.threshold * (1.0 + kLongestEdgeTolerance);
+      if (!met && mended++ < kMostMended) return mend();
+      outcome = met ? Status{} : Status::limit_not_met("edges longer than the threshold remain");
       stage = Stage::done;
       report_progress("done");
     }
+  }
+
+  /// Full adaptation: layers again where edges have become too long, then the operators.
+  void mend() {
+    look_at_all();
+    diced = true;
+  }
+
+  void look_at_all() {
+    tags.mask.assign(mesh.cells.size(), 0);
+    tagging.look_at_all(mesh);
+    first_iteration = iteration;
+    longest.reset();
+    stage = Stage::tag;
+  }
+
+  /// Full adaptation: every cell in four, for sizes half as large.
+  void halve() {
+    recorder.before_dice(mesh);
+    compact(mesh);
+    if (4 * static_cast<std::int64_t>(mesh.cell_count()) <= options.max_cells && dice(mesh, 2).ok()) {
+      --halvings;
+      diced = true;
+    } else {
+      halvings = 0;  // layers have to do it
+    }
+    recorder.dice(mesh, iteration);
+    target = aim();
+    look_at_all();
   }
 
   void dice_all() {

@@ -12,13 +12,19 @@ namespace pillowmesh {
 namespace {
 
 constexpr int kMostExcess = 2;        ///< changes that make more irregularity than this hardly ever pay
+constexpr int kMostExcessOpened = 4;  ///< an opening among regular vertices makes two dislocations: else none would come there
+constexpr int kRefusedAtLarge = 3;  ///< rows that the whole mesh was relocated for in vain
 constexpr double kNoise = 0.001;      ///< a gain smaller than this is none
-constexpr double kChordGain = 0.05;   ///< expected of a chord to be tried, for each of its cells
+constexpr double kChordGain = 0.02;   ///< expected of a chord to be tried, for each of its cells
 constexpr double kPoorCell = 0.1;     ///< energy above which a cell is looked at
 /// What a cell is worth beyond its energy. An opening is relaxed from a sliver and judged too early more often than a
 /// collapse; without this the search loses cells. Opening and collapsing again cannot go on for ever: what one may cost
 /// the other must gain.
-constexpr double kCellBonus = 0.1;
+constexpr double kCellBonus = 0.15;
+
+/// What the cells of a change have to cost, together with what it may cost, for it to be tried: of those that cost less 80 to
+/// 90 % are refused after all, and only some 5 % of those that would be kept are among them.
+constexpr double kLeastRotated = 0.8, kLeastCollapsed = 1.0, kLeastOpened = 1.6;
 
 int square(int a) { return a * a; }
 
@@ -37,13 +43,20 @@ bool LocalSearch::interesting(CellId c) {
   return false;
 }
 
-bool LocalSearch::worth_trying(int excess) { return excess <= kMostExcess; }
+/// By how much a change may raise the energy, at the temperature of the pass, when `bonus` more is allowed.
+double LocalSearch::allowance(double bonus) {
+  return (temperature_ > 0 ? temperature_ * random_.exponential() : 0.0) - kNoise + bonus;
+}
 
-double LocalSearch::threshold() { return (temperature_ > 0 ? temperature_ * random_.exponential() : 0.0) - kNoise; }
-
-/// What is planned, at the temperature of the pass; it may raise the energy by `bonus` more.
-bool LocalSearch::attempt(Operator op, double bonus) {
-  if (!trial_.attempt(op, threshold() + bonus)) return false;
+/// What is planned; false without a trial where its cells are so good that it would be refused.
+bool LocalSearch::attempt(Operator op, double allowed) {
+  const double least = op == Operator::collapse ? kLeastCollapsed : (op == Operator::open ? kLeastOpened : 0.0);
+  if (least > 0.0) {
+    double cost = allowed;
+    for (const CellId c : trial_.cavity.old_cells) cost += trial_.relocator.energy(c);
+    if (cost < least) return false;
+  }
+  if (!trial_.attempt(op, allowed)) return false;
   ++kept_;
   return true;
 }
@@ -77,13 +90,16 @@ void LocalSearch::try_rotations(CellId c) {
   for (int side = 0; side < 4 && mesh_.alive(c); ++side) {
     const HalfFacetId twin = twin_of_side(mesh_, c, side);
     if (twin < 0 || mesh_.cell_of(twin) > c) continue;
+    const double cost = trial_.relocator.energy(c) + trial_.relocator.energy(mesh_.cell_of(twin));
     for (int way = 0; way < 2; ++way) {
+      const double allowed = allowance(0.0);
+      if (cost + allowed < kLeastRotated) continue;
       if (!plan_rotation(mesh_, c, side, way, trial_.cavity)) continue;
       const auto& v = trial_.cavity.around;
       const VertexId from = way == 0 ? v[2] : v[3], to = way == 0 ? v[4] : v[5];
-      if (!worth_trying(trial_.excess(v[0], -1) + trial_.excess(v[1], -1) + trial_.excess(from, 1) + trial_.excess(to, 1)))
+      if (trial_.excess(v[0], -1) + trial_.excess(v[1], -1) + trial_.excess(from, 1) + trial_.excess(to, 1) > kMostExcess)
         continue;
-      if (attempt(Operator::rotate, 0.0)) break;
+      if (attempt(Operator::rotate, allowed)) break;
     }
   }
 }
@@ -95,11 +111,11 @@ void LocalSearch::try_collapses(CellId c) {
     const bool inside = mesh_.support[keep].dim == 2;
     if (mesh_.support[drop].dim != 2 || (inside && i >= 2)) continue;  // the other way round is the same
     const int a = trial_.valence(drop), b = trial_.valence(keep), ideal = trial_.ideal(keep);
-    if (!worth_trying(square(a + b - 2 - ideal) - square(a - 4) - square(b - ideal) + trial_.excess(x, -1) +
-                      trial_.excess(y, -1)))
+    if (square(a + b - 2 - ideal) - square(a - 4) - square(b - ideal) + trial_.excess(x, -1) + trial_.excess(y, -1) >
+        kMostExcess)
       continue;
     if (!plan_diagonal_collapse(mesh_, c, i, trial_.cavity)) continue;
-    if (attempt(Operator::collapse, -kCellBonus)) return;
+    if (attempt(Operator::collapse, allowance(-kCellBonus))) return;
   }
 }
 
@@ -117,11 +133,11 @@ void LocalSearch::try_openings(CellId c) {
         const int last = first + turned;
         const VertexId a = around(mesh_, star.cell[first], star.place[first] + 1);
         const VertexId b = around(mesh_, star.cell[last % n], star.place[last % n] + 1);
-        if (!worth_trying(square(n - turned - 3) + square(turned - 3) - square(n - 4) + trial_.excess(a, 1) +
-                          trial_.excess(b, 1)))
+        if (square(n - turned - 3) + square(turned - 3) - square(n - 4) + trial_.excess(a, 1) + trial_.excess(b, 1) >
+            kMostExcessOpened)
           continue;
         if (!plan_opening(mesh_, v, star, first, last, trial_.cavity)) continue;
-        opened = attempt(Operator::open, kCellBonus);
+        opened = attempt(Operator::open, allowance(kCellBonus));
       }
   }
 }
@@ -134,11 +150,12 @@ void LocalSearch::try_boundary_collapses(CellId c) {
     if (twin_of_side(mesh_, c, i) >= 0 || mesh_.support[v].dim != 1 || !find_star(mesh_, v, star) || star.count != 2) continue;
     const VertexId a = around(mesh_, star.cell[1], star.place[1] + 3), b = around(mesh_, c, i + 1), p = around(mesh_, c, i + 3);
     const int ideal = std::min(trial_.ideal(a), trial_.ideal(b)), n_a = trial_.valence(a), n_b = trial_.valence(b);
-    if (!worth_trying(square(n_a + n_b - 1 - ideal) - square(n_a - trial_.ideal(a)) - square(n_b - trial_.ideal(b)) +
-                      trial_.excess(p, -1)))
+    if (square(n_a + n_b - 1 - ideal) - square(n_a - trial_.ideal(a)) - square(n_b - trial_.ideal(b)) +
+            trial_.excess(p, -1) >
+        kMostExcess)
       continue;
     if (!plan_boundary_collapse(mesh_, v, trial_.cavity)) continue;
-    if (attempt(Operator::boundary_collapse, -kCellBonus)) return;
+    if (attempt(Operator::boundary_collapse, allowance(-kCellBonus))) return;
   }
 }
 
@@ -153,11 +170,12 @@ void LocalSearch::try_boundary_openings(CellId c) {
     const int before = at + 1, after = star.count - at;
     for (int turned = 0; turned < (dim == 0 ? 2 : 1); ++turned) {
       const int ideal_a = dim == 0 && turned == 0 ? trial_.ideal(v) : 2, ideal_b = dim == 0 && turned == 1 ? trial_.ideal(v) : 2;
-      if (!worth_trying(square(after - ideal_a) + square(before - ideal_b) - square(star.count - trial_.ideal(v)) +
-                        trial_.excess(around(mesh_, c, i + 2), 1)))
+      if (square(after - ideal_a) + square(before - ideal_b) - square(star.count - trial_.ideal(v)) +
+              trial_.excess(around(mesh_, c, i + 2), 1) >
+          kMostExcess)
         continue;
       if (!plan_boundary_opening(mesh_, c, i, turned == 1, trial_.cavity)) continue;
-      if (attempt(Operator::boundary_open, kCellBonus)) return;
+      if (attempt(Operator::boundary_open, allowance(kCellBonus))) return;
     }
   }
 }
@@ -187,6 +205,20 @@ double LocalSearch::chord_gain() {
   return first < -second && width > rows + 0.5 ? first + second : 0.0;
 }
 
+/// With the rows beside it; when that is not enough, and the mesh has come to rest, with all rows.
+bool LocalSearch::attempt_chord(Operator op) {
+  const auto plan = [&] {
+    return op == Operator::chord_split ? plan_chord_split(mesh_, chord_, trial_.cavity)
+                                       : plan_chord_collapse(mesh_, chord_, trial_.cavity);
+  };
+  if (!plan()) return false;
+  if (trial_.attempt(op, -kNoise)) return true;
+  if (temperature_ > 0.0 || refused_at_large_ == kRefusedAtLarge || !plan()) return false;
+  if (trial_.attempt_at_large(op, -kNoise)) return true;
+  ++refused_at_large_;
+  return false;
+}
+
 std::int64_t LocalSearch::chord_pass() {
   std::int64_t kept = 0;
   std::vector<std::uint8_t> seen(mesh_.cells.size(), 0);  // bit per axis
@@ -199,11 +231,8 @@ std::int64_t LocalSearch::chord_pass() {
       find_chord(mesh_, c, axis, marks_, chord_);
       for (const auto& [cell, side] : chord_.cells) seen[cell] |= static_cast<std::uint8_t>(1 << (side & 1));
       const double gain = chord_gain() / static_cast<double>(chord_.cells.size());
-      if (gain > kChordGain ? plan_chord_collapse(mesh_, chord_, trial_.cavity) &&
-                                  trial_.attempt(Operator::chord_collapse, -kNoise)
-                            : gain < -kChordGain && plan_chord_split(mesh_, chord_, trial_.cavity) &&
-                                  trial_.attempt(Operator::chord_split, -kNoise))
-        ++kept;
+      if (gain > kChordGain && attempt_chord(Operator::chord_collapse)) ++kept;
+      if (gain < -kChordGain && attempt_chord(Operator::chord_split)) ++kept;
     }
   return kept;
 }

@@ -29,10 +29,10 @@ class LocalSearch {
 
  private:
   bool interesting(CellId c);
-  bool worth_trying(int excess);
-  double threshold();
-  bool attempt(Operator op, double bonus);
+  double allowance(double bonus);
+  bool attempt(Operator op, double allowed);
   double chord_gain();
+  bool attempt_chord(Operator op);
   void try_rotations(CellId c);
   void try_collapses(CellId c);
   void try_openings(CellId c);
@@ -48,6 +48,7 @@ class LocalSearch {
   std::vector<Index> looked_;  ///< per cell: when its candidates were last tried
   std::vector<std::uint8_t> marks_;
   Chord chord_, across_;
+  int refused_at_large_ = 0;
 };
 
 }  // namespace pillowmesh

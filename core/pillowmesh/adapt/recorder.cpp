@@ -123,9 +123,11 @@ void Recorder<Dim>::dice(const Mesh<Dim>& mesh, int iteration) {
   Event<Dim>& event = add(EventKind::dice, mesh, iteration);
   event.delta.vertices_before = static_cast<Index>(old_points_.size());
   event.delta.cells_before = static_cast<Index>(old_cells_.size());
-  for (VertexId v = event.delta.vertices_before; v < mesh.vertex_count(); ++v) {
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+    const Point<Dim>& old = v < event.delta.vertices_before ? old_points_[v] : mesh.points[v];
+    if (v < event.delta.vertices_before && old == mesh.points[v]) continue;
     event.delta.vertices.push_back(v);
-    event.delta.old_points.push_back(mesh.points[v]);
+    event.delta.old_points.push_back(old);
     event.delta.new_points.push_back(mesh.points[v]);
   }
   for (CellId c = 0; c < mesh.cell_count(); ++c) {

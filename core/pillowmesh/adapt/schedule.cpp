@@ -10,25 +10,23 @@ namespace {
 constexpr std::int64_t kMovesPerStep = 4000;
 constexpr int kRelaxSweeps = 5;
 
-/// How much is spent. Temperatures fall geometrically.
-struct Budget {
-  int hot_passes;
-  double hot, cool;
-  int rows_every;  ///< hot pass rows are removed and doubled
-  int cold_passes, polish_rounds;
-  int relax_sweeps, settle_sweeps;
-};
-Budget budget_of(Effort effort) {
+/// Of a mesh that layers have made, or that was given, and of one that was made by dicing a good one. Coarse meshes are not
+/// polished: the finer ones change shapes anyway.
+Budget budget_of(Effort effort, bool diced, int halvings) {
+  const int polish = halvings > 0 ? 0 : 1;
   switch (effort) {
-    case Effort::fast: return {3, 0.3, 0.1, 3, 1, 0, 4, 6};
-    case Effort::normal: return {16, 0.4, 0.08, 8, 6, 2, 20, 40};
+    case Effort::fast:
+      return diced ? Budget{0, 0, 0, 1, 0, 0, 0, 4} : Budget{6, 0.3, 0.1, 3, 2, 0, 4, 2};
+    case Effort::normal:
+      return diced ? Budget{16, 0.25, 0.05, 8, 3, 2 * polish, 4, 20} : Budget{30, 0.5, 0.06, 8, 4, 2 * polish, 20, 20};
     case Effort::best: break;
   }
-  return {140, 0.6, 0.05, 20, 20, 6, 40, 150};
+  return diced ? Budget{110, 0.4, 0.1, 20, 20, 6 * polish, 20, 100} : Budget{60, 0.6, 0.05, 20, 20, 6 * polish, 40, 100};
 }
 
-/// Weight of alignment in the energy when the option asks for all of it.
-constexpr double kAlignment = 0.5;
+/// Weight of alignment in the energy when the option asks for all of it. In coarse meshes the directions of the metric turn
+/// more from cell to cell: there it draws less, and weighs more.
+constexpr double kAlignment = 0.4, kCoarseAlignment = 0.6;
 
 Background background_of(const Mesh<2>& mesh, const MetricField<2>& field) {
   Point<2> low = mesh.points[0], high = low;
@@ -36,33 +34,32 @@ Background background_of(const Mesh<2>& mesh, const MetricField<2>& field) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  return {field, low, high};
+  return {field, low, high, {.tolerance = 5e-3, .smallest = 0.5}};
 }
 
 }  // namespace
 
-Schedule::Schedule(Mesh<2>& mesh, const MetricField<2>& field, const AdaptOptions& options, Recorder<2>& recorder,
-                   std::map<std::string, std::int64_t>& operations, int iteration)
+Schedule::Schedule(Mesh<2>& mesh, const MetricField<2>& field, const AdaptOptions& options, bool diced, int halvings,
+                   Recorder<2>& recorder, std::map<std::string, std::int64_t>& operations, int iteration)
     : mesh_(mesh),
       options_(options),
       recorder_(recorder),
       operations_(operations),
       iteration_(iteration),
+      budget_(budget_of(options.effort, diced, halvings)),
       background_(background_of(mesh, field)),
-      trial_(mesh, background_, {.alignment = kAlignment * options.align}),
+      trial_(mesh, background_, {.alignment = (halvings > 0 ? kCoarseAlignment : kAlignment) * options.align}),
       search_(mesh, trial_, options.seed),
       descent_(mesh, trial_.relocator) {
+  alignment_ = trial_.relocator.weights().alignment;
   if (options.record)
     trial_.kept = [this](Operator op, const Journal& journal) { recorder_.change(op, mesh_, journal, trial_.cavity, iteration_); };
-  hot_passes_ = budget_of(options.effort).hot_passes;
-  cold_passes_ = budget_of(options.effort).cold_passes;
 }
 
 double Schedule::temperature(int pass) const {
-  const Budget e = budget_of(options_.effort);
-  if (pass >= hot_passes_) return 0.0;
-  if (hot_passes_ == 1) return e.hot;
-  return e.hot * portable::pow(e.cool / e.hot, static_cast<double>(pass) / (hot_passes_ - 1));
+  if (pass >= budget_.hot_passes) return 0.0;
+  if (budget_.hot_passes == 1) return budget_.hot;
+  return budget_.hot * portable::pow(budget_.cool / budget_.hot, static_cast<double>(pass) / (budget_.hot_passes - 1));
 }
 
 void Schedule::begin_sweep() {
@@ -98,48 +95,50 @@ bool Schedule::descend(int most) {
 }
 
 void Schedule::next_pass() {
-  if (pass_ == hot_passes_ + cold_passes_) {
+  if (pass_ == budget_.hot_passes + budget_.cold_passes) {
     stage_ = Stage::polish;
     end_polish_round();
     return;
   }
-  if (pass_ == hot_passes_) trial_.touch_all();
+  if (pass_ == budget_.hot_passes) trial_.touch_all();
   search_.begin_pass(temperature(pass_));
   stage_ = Stage::pass;
 }
 
 void Schedule::end_pass() {
-  const bool cold = pass_ >= hot_passes_;
-  const bool rows = cold || pass_ % budget_of(options_.effort).rows_every == 0;
+  const bool cold = pass_ >= budget_.hot_passes;
+  const bool rows = cold || pass_ % budget_.rows_every == 0;
   const std::int64_t chords = rows ? search_.chord_pass() : 0;
   ++pass_;
-  if (cold && search_.kept() + chords == 0) pass_ = hot_passes_ + cold_passes_;
+  if (cold && search_.kept() + chords == 0) pass_ = budget_.hot_passes + budget_.cold_passes;
   stage_ = Stage::after_pass;
   begin_sweep();
 }
 
 void Schedule::end_polish_round() {
-  if (polish_ == budget_of(options_.effort).polish_rounds || (polish_ > 0 && search_.kept() == 0)) {
+  if (polish_ == budget_.polish_rounds || (polish_ > 0 && search_.kept() == 0)) {
     stage_ = Stage::settle;
     sweeps_ = 0;
+    EnergyWeights exact = trial_.relocator.weights();
+    exact.rough = 0.5;
+    trial_.relocator.measure_all(exact);
     return;
   }
   if (polish_++ == 0) {
-    trial_.relocator.measure_all({.alignment = kAlignment * options_.align, .shape = 10.0, .shape_floor = 0.65});
+    trial_.relocator.measure_all({.alignment = alignment_, .shape = 10.0, .shape_floor = 0.65});
     trial_.touch_all();
   }
   search_.begin_pass(0.0);
 }
 
 bool Schedule::step() {
-  const Budget budget = budget_of(options_.effort);
   switch (stage_) {
     case Stage::relax:
       // Sweeps take out what is crumpled, descent then moves whole rows.
       if (sweeps_ < kRelaxSweeps) {
         if (!sweeping_) begin_sweep();
         continue_sweep();
-      } else if (!descend(kRelaxSweeps + budget.relax_sweeps)) {
+      } else if (!descend(kRelaxSweeps + budget_.relax_sweeps)) {
         next_pass();
       }
       break;
@@ -157,7 +156,7 @@ bool Schedule::step() {
       }
       break;
     case Stage::settle:
-      if (!descend(budget.settle_sweeps)) stage_ = Stage::done;
+      if (!descend(budget_.settle_sweeps)) stage_ = Stage::done;
       break;
     case Stage::done: break;
   }
@@ -170,18 +169,24 @@ void Schedule::count() {
                                                "chord_splits", "boundary_collapses", "boundary_openings"};
   std::int64_t tried = 0;
   for (int i = 0; i < kOperators; ++i) {
-    operations_[names[i]] = trial_.counts[i].kept;
+    count(names[i], trial_.counts[i].kept);
     tried += trial_.counts[i].tried;
   }
-  operations_["trials"] = tried;
-  operations_["relocations"] = trial_.moves;
+  count("trials", tried);
+  count("relocations", trial_.moves);
+}
+
+/// Coarser meshes have been counted before.
+void Schedule::count(const std::string& name, std::int64_t total) {
+  operations_[name] += total - counted_[name];
+  counted_[name] = total;
 }
 
 double Schedule::share() const {
   switch (stage_) {
     case Stage::relax: return 0.0;
     case Stage::pass:
-    case Stage::after_pass: return 0.05 + 0.85 * pass_ / (hot_passes_ + cold_passes_);
+    case Stage::after_pass: return 0.05 + 0.85 * pass_ / (budget_.hot_passes + budget_.cold_passes);
     case Stage::polish: return 0.9;
     case Stage::settle: return 0.95;
     case Stage::done: break;

@@ -12,12 +12,22 @@
 
 namespace pillowmesh {
 
+/// How much is spent. Temperatures fall geometrically.
+struct Budget {
+  int hot_passes;
+  double hot, cool;
+  int rows_every;  ///< hot pass rows are removed and doubled
+  int cold_passes, polish_rounds;
+  int relax_sweeps, settle_sweeps;
+};
+
 /// Improves a quad mesh that layers have refined, step by step. The mesh is valid between steps; it may hold dead cells
 /// and unused vertices (mesh/compact.h).
 class Schedule {
  public:
   /// All must outlive it. Cost: linear.
-  Schedule(Mesh<2>& mesh, const MetricField<2>& field, const AdaptOptions& options, Recorder<2>& recorder,
+  /// \param diced the mesh was made by dicing an adapted one  \param halvings how often it will be diced afterwards
+  Schedule(Mesh<2>& mesh, const MetricField<2>& field, const AdaptOptions& options, bool diced, int halvings, Recorder<2>& recorder,
            std::map<std::string, std::int64_t>& operations, int iteration);
 
   /// A few thousand vertex moves. \return false when all is done.
@@ -38,21 +48,24 @@ class Schedule {
   void end_polish_round();
   [[nodiscard]] double temperature(int pass) const;
   void count();
+  void count(const std::string& name, std::int64_t total);
 
   Mesh<2>& mesh_;
   const AdaptOptions& options_;
   Recorder<2>& recorder_;
   std::map<std::string, std::int64_t>& operations_;
   int iteration_;
+  Budget budget_;
+  double alignment_ = 0.5;
   Background background_;
   Trial trial_;
   LocalSearch search_;
   QuadDescent descent_;
 
   Stage stage_ = Stage::relax;
-  int hot_passes_ = 0, cold_passes_ = 0;
   int pass_ = 0;      ///< hot and cold
   int polish_ = 0;
+  std::map<std::string, std::int64_t> counted_;  ///< of the operations
   int sweeps_ = 0;    ///< in this stage
   bool sweeping_ = false;
   VertexId next_vertex_ = 0;

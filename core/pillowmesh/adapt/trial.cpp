@@ -4,6 +4,7 @@
 
 #include "pillowmesh/coarsen/diagonal_collapse.h"
 #include "pillowmesh/mesh/portable_math.h"
+#include "pillowmesh/smooth/quad_descent.h"
 
 namespace pillowmesh {
 namespace {
@@ -193,11 +194,42 @@ bool Trial::attempt(Operator op, double threshold) {
     if (change - patient.far_hope * gain > threshold) return refuse(count.hopeless);
   }
   if (change > threshold) return refuse(count.hopeless);
-  ++count.kept;
-  ++clock_;
-  for (const VertexId v : far_) changed_[v] = clock_;
-  if (kept) kept(op, journal_);
+  keep(op, far_);
   return true;
+}
+
+void Trial::keep(Operator op, const std::vector<VertexId>& changed) {
+  ++counts[static_cast<int>(op)].kept;
+  ++clock_;
+  for (const VertexId v : changed) changed_[v] = clock_;
+  if (kept) kept(op, journal_);
+}
+
+bool Trial::attempt_at_large(Operator op, double threshold) {
+  constexpr int kIterations = 60, kHope = 12;  // how many times the gain of an iteration may still be to come
+  const double before = relocator.total_energy();
+  journal_.begin();
+  relocator.begin();
+  Count& count = counts[static_cast<int>(op)];
+  bool good = change_topology();
+  if (good) ++count.tried;
+  good = good && (measure() || untangle());
+  if (good) {
+    for (VertexId v = 0; v < mesh_.vertex_count(); ++v)
+      if (mesh_.vertex_cell[v] != kNone) journal_.touch(v);
+    QuadDescent descent(mesh_, relocator);
+    double left = relocator.total_energy() - (before + threshold), gain = left;
+    for (int i = 0; i < kIterations && left > 0.0 && gain > 0.0 && left < kHope * gain; ++i) left -= gain = descent.iterate();
+    good = left < 0.0;
+  }
+  if (good) {
+    keep(op, journal_.vertices());
+  } else {
+    ++count.hopeless;
+    journal_.undo();
+    relocator.measure_all(relocator.weights());
+  }
+  return good;
 }
 
 double Trial::sweep(VertexId first, VertexId last) {

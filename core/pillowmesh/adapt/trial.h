@@ -24,6 +24,10 @@ class Trial {
   /// what it was. Changes without hope are given up early. Cost: the cells touched.
   bool attempt(Operator op, double threshold);
 
+  /// The same for a change that the whole mesh has to make room for: all vertices are relocated at once, a few times.
+  /// Cost: the size of the mesh.
+  bool attempt_at_large(Operator op, double threshold);
+
   /// Relocates vertices first to last - 1 once. \return by how much the energy fell.
   double sweep(VertexId first, VertexId last);
 
@@ -60,6 +64,7 @@ class Trial {
   void collect_near();
   void collect_far(int rings);
   double relax(const std::vector<VertexId>& vertices);
+  void keep(Operator op, const std::vector<VertexId>& changed);
 
   Mesh<2>& mesh_;
   Journal journal_;
