@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "pillowmesh/adapt/continuation.h"
+#include "pillowmesh/adapt/halving.h"
 #include "pillowmesh/adapt/longest_edge.h"
 #include "pillowmesh/adapt/recorder.h"
 #include "pillowmesh/adapt/schedule.h"
@@ -60,6 +61,7 @@ struct Adapter<Dim>::State {
   std::optional<Relocator<Dim>> relocator;
   std::unique_ptr<Schedule> schedule;  ///< full adaptation only
   bool diced = false;     ///< the mesh was made from one that had been adapted: it only has to be mended
+  CellId cells_before_layers = 0;
   int mended = 0;         ///< how often edges had become too long in the end
   int halvings = 0;  ///< full adaptation: how often the mesh is still to be diced in four
   int sweeps = 0;
@@ -168,6 +170,8 @@ struct Adapter<Dim>::State {
         return;
       }
       if (full()) {
+        // A few layers more only have to be mended.
+        diced = 10 * mesh.cell_count() < 11 * cells_before_layers;
         stage = Stage::improve;
         return;
       }
@@ -325,40 +329,39 @@ struct Adapter<Dim>::State {
       // What the layers could not shorten the operators may have, and the other way round.
       const double longest = longest_edge(mesh, target);
       const bool met = longest <= options.threshold * (1.0 + kLongestEdgeTolerance);
-      if (!met && mended++ < kMostMended) return mend();
+      if (!met && mended++ < kMostMended) return insert_layers();
       outcome = met ? Status{} : Status::limit_not_met("edges longer than the threshold remain");
       stage = Stage::done;
       report_progress("done");
     }
   }
 
-  /// Full adaptation: layers again where edges have become too long, then the operators.
-  void mend() {
-    look_at_all();
-    diced = true;
-  }
-
-  void look_at_all() {
+  /// Full adaptation: layers, for the first time or where edges have become too long, then the operators.
+  void insert_layers() {
     tags.mask.assign(mesh.cells.size(), 0);
     tagging.look_at_all(mesh);
     first_iteration = iteration;
     longest.reset();
+    cells_before_layers = diced ? mesh.cell_count() : 0;
     stage = Stage::tag;
   }
 
-  /// Full adaptation: every cell in four, for sizes half as large.
+  /// Full adaptation: every cell in four, for sizes half as large. What is too long then is relocated first: layers through
+  /// cells that are out of shape would go everywhere.
   void halve() {
     recorder.before_dice(mesh);
     compact(mesh);
-    if (4 * static_cast<std::int64_t>(mesh.cell_count()) <= options.max_cells && dice(mesh, 2).ok()) {
-      --halvings;
-      diced = true;
-    } else {
-      halvings = 0;  // layers have to do it
-    }
+    diced = 4 * static_cast<std::int64_t>(mesh.cell_count()) <= options.max_cells && halve_cells();
+    halvings = diced ? halvings - 1 : 0;
     recorder.dice(mesh, iteration);
     target = aim();
-    look_at_all();
+    longest.reset();
+    if (!diced) insert_layers();
+  }
+
+  bool halve_cells() {
+    if constexpr (Dim == 2) return halve_sizes(mesh, field).ok();
+    return false;
   }
 
   void dice_all() {
