@@ -52,7 +52,8 @@ struct PillowWorkspace {
 ///      |     |     |          |/----|----\|
 ///      +-----+-----+          +-----+-----+
 ///
-/// Where the shrink set meets the domain's boundary the boundary is not hull, unless named in `boundary_hull`.
+/// Where the shrink set meets the domain's boundary the boundary is not hull, unless named in `boundary_hull`. In 3D the
+/// layer may go around more than asked for: see BufferLayer::added.
 /// \return illegal, with the mesh bit-for-bit unchanged, when there is no hull, a copy would leave the boundary, or no
 /// position keeps all corner Jacobians positive (above work.quality_floor). Cost: linear in the shrink set (no global work).
 /// Source: [Paper] section 2; Mitchell and Tautges, "Pillowing doublets" (1995); Schneiders (1996).
