@@ -85,10 +85,11 @@ struct Adapter<Dim>::State {
     if (options.geometry == BoundaryShape::smooth) mesh.geometry = smooth_geometry(std::move(mesh.geometry));
     outcome = field.check(mesh.points);
     target = aim();
-    if (outcome.ok() && continuation.steep() && options.continuation < 0 && options.smoothing != Smoothing::none) {
-      options.threshold = threshold_for(mesh, field, requested);
-      tagging = Tagging<Dim>(mesh, options.threshold);
-    }
+    if constexpr (Dim == 3)
+      if (outcome.ok() && continuation.steep() && options.continuation < 0 && options.smoothing != Smoothing::none) {
+        options.threshold = threshold_for(mesh, field, requested);
+        tagging = Tagging<Dim>(mesh, options.threshold);
+      }
     if (outcome.ok() && mesh.frozen && options.dice > 1)
       outcome = Status::usage("dicing would split what is frozen; leave out one of them");
     if (!outcome.ok()) stage = Stage::done;

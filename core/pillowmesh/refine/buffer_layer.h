@@ -1,6 +1,7 @@
 // The refinement primitive: shrink a set of cells and fill the void with a buffer layer. [Paper] section 2, Figure 1.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct PillowWorkspace {
   Hull<Dim> hull;
   CopyPlan<Dim> plan;
   std::vector<CellId> touched;
+  std::vector<std::uint8_t> marks;  ///< per cell, and more; all 0 between calls
   std::vector<CellId> set;
   std::vector<NewCellSide> sides;
   std::vector<CellId> old_vertex_cell;
