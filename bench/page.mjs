@@ -5,35 +5,55 @@ import { createServer } from 'node:http';
 import { existsSync, readFileSync, statSync } from 'node:fs';
 import { extname, join } from 'node:path';
 import { chromium } from 'playwright-core';
+import { gzipSync } from 'node:zlib';
 import { main, root } from '../scripts/run.mjs';
 
 const site = join(root, 'build', 'site');
 const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm' };
 const runs = Number(process.argv[2] ?? 20);
 const wanted = process.argv[3];
+/** What was fetched since this was emptied: path and bytes, as hosts send them, compressed. */
+let fetched = [];
 
 function serve() {
   const server = createServer((request, response) => {
     const path = new URL(request.url, 'http://x').pathname;
     const file = join(site, path === '/' ? 'index.html' : path);
     if (!file.startsWith(site) || !existsSync(file) || !statSync(file).isFile()) return response.writeHead(404).end();
-    response.writeHead(200, { 'content-type': types[extname(file)] ?? 'application/octet-stream' });
-    response.end(readFileSync(file));
+    const body = compressed(file);
+    fetched.push({ path, bytes: body.length });
+    response.writeHead(200, { 'content-type': types[extname(file)] ?? 'application/octet-stream', 'content-encoding': 'gzip' });
+    response.end(body);
   });
   return new Promise((resolve) => server.listen(0, '127.0.0.1', () => resolve(server)));
 }
 
-/** Milliseconds until the page has numbers and a picture to press play on. */
-async function interactive(browser, address, throttle) {
+const bodies = new Map();
+function compressed(file) {
+  const body = bodies.get(file) ?? gzipSync(readFileSync(file), { level: 9 });
+  bodies.set(file, body);
+  return body;
+}
+
+/**
+ * Milliseconds until the page has numbers and a picture to press play on: by the clock, and, when `traced`, of processor
+ * time of its threads (which tracing makes longer), with what was fetched until then.
+ */
+async function interactive(browser, address, throttle, traced = false) {
   const context = await browser.newContext({ viewport: { width: 1366, height: 768 }, reducedMotion: 'reduce' });
   const page = await context.newPage();
   const session = await context.newCDPSession(page);
   await session.send('Emulation.setCPUThrottlingRate', { rate: throttle });
-  await page.goto(`${address}#case=iso2d`);
-  await page.waitForFunction(() => /\d/.test(document.querySelector('.facts dd')?.textContent ?? '') && document.querySelector('.picture canvas'));
-  const time = await page.evaluate(() => performance.now());
+  fetched = [];
+  const start = async () => {
+    await page.goto(`${address}#case=iso2d`);
+    await page.waitForFunction(() => /\d/.test(document.querySelector('.facts dd')?.textContent ?? '') && document.querySelector('.picture canvas'));
+  };
+  const processor = traced ? await processorTime(browser, page, start) : await start();
+  const time = Math.round(await page.evaluate(() => performance.now()));
+  const bytes = fetched.reduce((all, one) => all + one.bytes, 0);
   await context.close();
-  return Math.round(time);
+  return traced ? { processor, requests: fetched.length, bytes } : time;
 }
 
 /**
@@ -64,13 +84,13 @@ async function processorTime(browser, page, action) {
   await browser.startTracing(page, { categories: ['toplevel', '__metadata'] });
   await action();
   const { traceEvents } = JSON.parse((await browser.stopTracing()).toString());
-  const of = (thread) => {
-    const ids = new Set(traceEvents.filter(({ name, args }) => name === 'thread_name' && args.name.startsWith(thread)).map(({ pid, tid }) => `${pid} ${tid}`));
-    const tasks = traceEvents.filter((e) => e.ph === 'X' && ids.has(`${e.pid} ${e.tid}`)).sort((a, b) => a.ts - b.ts || b.dur - a.dur);
+  const ofOne = ({ pid, tid }) => {
+    const tasks = traceEvents.filter((e) => e.ph === 'X' && e.pid === pid && e.tid === tid).sort((a, b) => a.ts - b.ts || b.dur - a.dur);
     let [end, total] = [0, 0];
     for (const { ts, dur, tdur = 0 } of tasks) if (ts >= end) [end, total] = [ts + dur, total + tdur]; // outermost ones
     return Math.round(total / 1000);
   };
+  const of = (name) => Math.max(0, ...traceEvents.filter((e) => e.name === 'thread_name' && e.args.name.startsWith(name)).map(ofOne));
   return { worker: of('DedicatedWorker'), page: of('CrRendererMain') };
 }
 
@@ -179,6 +199,12 @@ function residentOf(process) {
   }
 }
 
+async function several(times, measure) {
+  const found = [];
+  for (let i = 0; i < times; ++i) found.push(await measure());
+  return found;
+}
+
 await main(async () => {
   const server = await serve();
   const address = `http://127.0.0.1:${server.address().port}/`;
@@ -190,8 +216,9 @@ await main(async () => {
     const full = { method: 'full', effort: 'fast' };
     const parts = {
       interactive: async () => ({
-        plain: [await interactive(browser, address, 1), await interactive(browser, address, 1)],
-        throttled4: await interactive(browser, address, 4),
+        plain: await several(5, () => interactive(browser, address, 1)),
+        throttled4: await several(3, () => interactive(browser, address, 4)),
+        ...(await interactive(browser, address, 1, true)),
       }),
       playing: () => longTasks(browser, address),
       stroke: async () => ({

@@ -16,7 +16,8 @@ const pictures = [
     scheme: 'light',
     scale: 1,
   },
-  { name: 'page-dark', hash: 'case=circle2d&event=70&hide=ellipses', width: 1360, height: 850, scheme: 'dark' },
+  { name: 'page', hash: 'case=circle2d&event=44', width: 1360, height: 850, scheme: 'light', scale: 1 },
+  { name: 'page-dark', hash: 'case=circle2d&event=70&hide=ellipses', width: 1360, height: 850, scheme: 'dark', scale: 1 },
   ...['tags', 'layer', 'shrink', 'connect'].map((name, i) => ({
     name: `step-${i + 1}-${name}`,
     hash: `case=iso2d&event=${[1, 14, 15, 16][i]}&hide=ellipses`,

@@ -52,7 +52,7 @@ function table(binary, name) {
 /** The paper's method on hexahedra: what it is compared with, and options beside the defaults. */
 const solid = {
   linear3d: { published: [['paper', 1144, '4168 .272 1.072 2.12 .251', '.244 .770 .95 .179']], variants: [''] },
-  sphere3d: { published: [], variants: ['', '--continuation 0', '--smooth between'] },
+  sphere3d: { published: [], variants: ['', '--continuation 0'] },
   'sphere3d-paper': {
     published: [['paper', 5638, '18385 .020 .339 1.48 .459', '.002 .566 .93 .394']],
     variants: ['', '--continuation 0', '--threshold 1.4 --smooth between --continuation 3'],

@@ -1,9 +1,8 @@
 // The page's end of a session: calls as promises, events as a callback.
+import { CoreError, CrashError, LoadError } from './errors.ts';
 import { decodeEvents, type MeshEvent } from './events.ts';
-import { CrashError, LoadError } from './loader.ts';
 import type { Connection } from './pool.ts';
 import type { CallName, Calls, Failure, Reply, Request } from './protocol.ts';
-import { CoreError } from './session.ts';
 
 function toError(failure: Failure): Error {
   switch (failure.kind) {

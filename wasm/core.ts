@@ -97,8 +97,11 @@ export class AdaptableMesh {
   }
 }
 
-/** Opens a case, a grid or a file's bytes. Rejects with a CoreError that says what is wrong. */
-export async function openMesh(source: MeshSource, modules?: Modules): Promise<AdaptableMesh> {
+/**
+ * Opens a case (its metric scaled for so many `cells`, if that is said), a grid or a file's bytes. Rejects with a CoreError
+ * that says what is wrong.
+ */
+export async function openMesh(source: MeshSource, modules?: Modules, cells?: number): Promise<AdaptableMesh> {
   const from = modules ?? (shared ??= packageModules());
-  return new AdaptableMesh(from, await openSession(from, source));
+  return new AdaptableMesh(from, await openSession(from, source, undefined, cells));
 }

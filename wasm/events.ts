@@ -55,6 +55,17 @@ export interface MeshEvent {
 
 const headerSize = 11;
 
+/** How many events the integers of pm_take_events hold. */
+export function countEvents(dim: number, ints: Int32Array): number {
+  const corners = 1 << dim;
+  let count = 0;
+  for (let i = 0; i < ints.length; ++count) {
+    const [edges, cells, hull, moved, changed] = [2, 3, 4, 9, 10].map((k) => ints[i + k]);
+    i += headerSize + 2 * edges + cells + (corners / 2) * hull + moved + (1 + 2 * corners) * changed;
+  }
+  return count;
+}
+
 /** Decodes the result of pm_take_events. */
 export function decodeEvents(dim: number, ints: Int32Array, doubles: Float64Array): MeshEvent[] {
   const corners = 1 << dim;

@@ -1,6 +1,7 @@
 // Mesh files to and from the bytes in which a mesh crosses between modules.
+import { CoreError, statusNames } from './errors.ts';
 import type { FilesModule } from './loader.ts';
-import { CoreError, guard, pass, readBytes, readText, statusNames } from './memory.ts';
+import { guard, pass, readBytes, readText } from './memory.ts';
 
 /** A mesh as a file tells it, for Session.load. */
 export interface Input {

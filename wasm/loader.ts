@@ -1,25 +1,9 @@
 // Instantiates the core: a standalone WebAssembly module with a C interface (c_api.h) and a handful of WASI imports.
 // Works in a page, a worker and Node; asks for nothing but WebAssembly itself (no eval, no generated glue).
 
-/** Why the core could not be loaded. */
-export type LoadFailure = 'unsupported' | 'missing' | 'broken';
+import { LoadError } from './errors.ts';
 
-export class LoadError extends Error {
-  readonly reason: LoadFailure;
-  constructor(reason: LoadFailure, message: string) {
-    super(message);
-    this.name = 'LoadError';
-    this.reason = reason;
-  }
-}
-
-/** The core trapped: out of memory, or a defect. The instance must not be used any more. */
-export class CrashError extends Error {
-  constructor(cause: unknown) {
-    super(`The core stopped: ${cause instanceof Error ? cause.message : String(cause)}.`, { cause });
-    this.name = 'CrashError';
-  }
-}
+export { CrashError, LoadError, type LoadFailure } from './errors.ts';
 
 type Pointer = number;
 type Status = number;

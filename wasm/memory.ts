@@ -1,5 +1,5 @@
 // Calls into a module with text and arrays as arguments: what the C interfaces of all modules have in common.
-import { CrashError } from './loader.ts';
+import { CrashError } from './errors.ts';
 
 /** What every module exports. */
 export interface Memory {
@@ -9,28 +9,6 @@ export interface Memory {
 }
 
 export type Argument = string | Uint8Array | Int32Array | Float64Array;
-
-/** In the order of StatusCode in core/pillowmesh/mesh/status.h. */
-export const statusNames = [
-  'ok',
-  'limit_not_met',
-  'usage',
-  'bad_input',
-  'cancelled',
-  'illegal',
-  'other_build',
-] as const;
-export type StatusName = (typeof statusNames)[number];
-
-/** A call that the core refused: what kind of refusal, and its sentence. */
-export class CoreError extends Error {
-  readonly status: StatusName;
-  constructor(status: StatusName, message: string) {
-    super(message);
-    this.name = 'CoreError';
-    this.status = status;
-  }
-}
 
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();

@@ -1,7 +1,8 @@
 // Metrics from what users give: pictures, sketches, solutions, functions, walls. Made for a mesh by a module of its own;
 // what comes out is for Session.setMetric.
+import { CoreError, statusNames } from './errors.ts';
 import type { MetricsModule } from './loader.ts';
-import { CoreError, guard, pass, readBytes, readText, statusNames, type Argument } from './memory.ts';
+import { guard, pass, readBytes, readText, type Argument } from './memory.ts';
 
 /** A picture: one byte of brightness per pixel, row by row from the top. */
 export interface GrayImage {

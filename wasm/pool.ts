@@ -1,5 +1,5 @@
 // Sessions spread over a few workers that all pages' figures share; without workers they run in the page, in slices.
-import { CrashError, modulesFrom } from './loader.ts';
+import { CrashError } from './errors.ts';
 import type { Goodbye, Hello, Reply, Request, Setup } from './protocol.ts';
 
 /** Both directions of one session's messages. */
@@ -18,19 +18,37 @@ interface Host {
   connections: Set<Connection>;
 }
 
+/** What a page takes of worker.ts. */
+export type ServerCode = Pick<typeof import('./worker.ts'), 'serverInPage'>;
+
 export class Pool {
   private readonly hosts: Host[] = [];
   private readonly makeWorker: () => Worker;
   private readonly modules: Promise<Setup['modules']>;
   private readonly most: number;
+  private readonly loadServer: () => Promise<ServerCode>;
   /** How the last session was connected: what tests and curious visitors may ask. */
   place: 'worker' | 'page' | null = null;
 
-  /** No more than `most` workers are started; `makeWorker` may throw. */
-  constructor(makeWorker: () => Worker, modules: Promise<Setup['modules']>, most: number) {
+  /**
+   * No more than `most` workers are started; `makeWorker` may throw. `loadServer` gets the worker's code for a session in
+   * the page, when that is needed.
+   */
+  constructor(
+    makeWorker: () => Worker,
+    modules: Promise<Setup['modules']>,
+    most: number,
+    loadServer: () => Promise<ServerCode>,
+  ) {
     this.makeWorker = makeWorker;
     this.modules = modules;
     this.most = most;
+    this.loadServer = loadServer;
+  }
+
+  /** Starts a worker for the first session, before that is asked for. */
+  warm(): void {
+    if (this.hosts.length === 0) this.choose();
   }
 
   /** A new session: in a worker with few others or, where none can be started, in the page itself. */
@@ -86,7 +104,7 @@ export class Pool {
   }
 
   private async inPage(): Promise<Connection> {
-    const { Server } = await import('./worker.ts');
+    const { serverInPage } = await this.loadServer();
     const connection: Connection = {
       postMessage: (message) => void server.handle(message),
       onmessage: null,
@@ -96,7 +114,7 @@ export class Pool {
         server.close();
       },
     };
-    const server = new Server({ postMessage: (data) => connection.onmessage?.({ data }) }, modulesFrom(await this.modules));
+    const server = serverInPage((data) => connection.onmessage?.({ data }), await this.modules);
     return connection;
   }
 

@@ -1,16 +1,23 @@
 // The messages between a page and the worker that computes.
-import type { LoadFailure, ModuleSources } from './loader.ts';
+import type { LoadFailure, StatusName } from './errors.ts';
+import type { ModuleSources } from './loader.ts';
 import type { MetricRequest } from './metrics.ts';
-import type { Case, MeshArrays, MeshSource, MetricSpec, Options, Outcome, StatusName } from './session.ts';
+import type { Case, MeshArrays, MeshSource, MetricSpec, Options, Outcome } from './session.ts';
 
 /** The calls that a worker answers: arguments and result of each. */
 export interface Calls {
   about: { args: Record<never, never>; result: { version: string; cases: Case[] } };
-  /** Loads a mesh and sets its metric; keeps the old ones when either is refused. A case brings its own metric. */
-  open: { args: { source: MeshSource; metric?: MetricSpec }; result: MeshArrays };
+  /**
+   * Loads a mesh and sets its metric, for so many `cells` if that is said; keeps the old ones when either is refused. A
+   * case brings its own metric.
+   */
+  open: { args: { source: MeshSource; metric?: MetricSpec; cells?: number }; result: MeshArrays };
   /** Another metric on the same mesh. */
   metric: { args: MetricSpec; result: null };
-  /** Adapts the mesh; events arrive while it runs. Answered when the run is over. */
+  /**
+   * Adapts the mesh; events arrive while it runs. Answered when the run is over. Where layers alone do not make the number
+   * of cells that the metric asks for, other sizes are tried first; then the events arrive together.
+   */
   run: { args: { options: Options }; result: RunResult };
   /** The bytes of a metric for the open mesh, for `metric`: made by a module of its own, loaded when first asked for. */
   makeMetric: { args: MetricRequest; result: Uint8Array };
@@ -73,7 +80,7 @@ export interface Hello {
 export interface Setup {
   type: 'connect';
   port: MessagePort;
-  modules: ModuleSources<string | ArrayBuffer>;
+  modules: ModuleSources<string | ArrayBuffer | WebAssembly.Module>;
 }
 
 /** The last message over a port: the session is not wanted any more. */

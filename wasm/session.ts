@@ -1,10 +1,11 @@
 // A typed session over the C interface: a mesh, a metric, options, and the run made of them.
+import { CoreError, CrashError, statusNames, type StatusName } from './errors.ts';
 import { readFile } from './files.ts';
-import { CrashError, type Core, type Exports, type Modules } from './loader.ts';
+import type { Core, Exports, Modules } from './loader.ts';
 import { makeMetric } from './metrics.ts';
-import { CoreError, guard, pass, readBytes, readText, statusNames, type Argument, type StatusName } from './memory.ts';
+import { guard, pass, readBytes, readText, type Argument } from './memory.ts';
 
-export { CoreError, statusNames, type StatusName } from './memory.ts';
+export { CoreError, statusNames, type StatusName } from './errors.ts';
 
 const more = 100;
 
@@ -30,6 +31,8 @@ export type Loadable = Exclude<MeshSource, { kind: 'file' }> | { kind: 'input'; 
 export type MetricSpec = ({ formula: string } | { nodal: Uint8Array }) & {
   /** All sizes are multiplied by this; 1 by default. */
   scale?: number;
+  /** Before that they are scaled so that so many cells of unit size fill the domain: what full adaptation makes of it. */
+  cells?: number;
 };
 
 /** Options by their command-line names without dashes, e.g. {threshold: '2', smooth: 'end'}. */
@@ -80,16 +83,24 @@ export interface Opened {
 }
 
 /**
- * A session with the mesh loaded, and its metric if one is given, on the core of its dimension. A file tells its dimension when it is read. Of anything
- * else the core for 2D is asked first, and that for 3D when it answers that the mesh is none of its own.
+ * A session with the mesh loaded, and its metric if one is given or it is a case, scaled for so many `cells`, on the core
+ * of its dimension. A file tells its dimension when it is read. Of anything else the core for 2D is asked first, and that
+ * for 3D when it answers that the mesh is none of its own.
  */
-export async function openSession(modules: Modules, mesh: MeshSource, given?: MetricSpec): Promise<Opened> {
+export async function openSession(
+  modules: Modules,
+  mesh: MeshSource,
+  given?: MetricSpec,
+  cells?: number,
+): Promise<Opened> {
   const opened = await openMeshAlone(modules, mesh);
   const { core, session } = opened;
-  const hasOwn = mesh.kind !== 'case' || cases(core).some(({ name, formula }) => name === mesh.name && formula);
+  const own = mesh.kind === 'case' ? cases(core).find(({ name }) => name === mesh.name)?.formula : undefined;
+  const made = async (): Promise<MetricSpec> =>
+    ({ nodal: makeMetric(await modules.metrics(), session.input(), { image: 'portrait' }) });
   try {
-    const metric =
-      given ?? (hasOwn ? undefined : { nodal: makeMetric(await modules.metrics(), session.input(), { image: 'portrait' }) });
+    let metric = given ?? (own === '' ? await made() : undefined);
+    if (cells && (metric || own)) metric = { ...(metric ?? { formula: own! }), cells };
     if (metric) session.setMetric(metric);
     return { ...opened, metric };
   } catch (error) {
@@ -193,10 +204,16 @@ export class Session {
     }
   }
 
-  setMetric({ scale = 1, ...metric }: MetricSpec): void {
+  setMetric({ scale = 1, cells, ...metric }: MetricSpec): void {
     const { core, handle } = this;
-    if ('nodal' in metric) this.check(this.pass([metric.nodal], (p, n) => core.pm_set_nodal(handle, p, n, scale)));
-    else this.check(this.pass([metric.formula], (p, n) => core.pm_set_metric(handle, p, n, scale)));
+    const set = (factor: number): void => {
+      if ('nodal' in metric) this.check(this.pass([metric.nodal], (p, n) => core.pm_set_nodal(handle, p, n, factor)));
+      else this.check(this.pass([metric.formula], (p, n) => core.pm_set_metric(handle, p, n, factor)));
+    };
+    if (!cells) return set(scale);
+    set(1);
+    const { complexity } = JSON.parse(this.report()) as { complexity: number };
+    set(scale * (complexity / cells) ** (1 / this.dimension()));
   }
 
   setOption(name: string, value: string): void {

@@ -1,13 +1,13 @@
 // A module worker around sessions, each with a port: runs adaptations in slices so that they can be paused and
 // cancelled, streams their events, and answers measurements between the slices. Where a page may not start workers, the
 // same slices run in the page itself (pool.ts).
-import { decodeEvents } from './events.ts';
+import { CoreError, LoadError } from './errors.ts';
+import { countEvents } from './events.ts';
 import { writeFile } from './files.ts';
-import { LoadError, modulesFrom, type Modules } from './loader.ts';
+import { modulesFrom, type Modules } from './loader.ts';
 import { makeMetric } from './metrics.ts';
 import type { CallName, Calls, Failure, Goodbye, Hello, Reply, Request, RunResult, Setup } from './protocol.ts';
 import {
-  CoreError,
   beginRun,
   cases,
   openSession,
@@ -15,11 +15,16 @@ import {
   version,
   type Opened,
   type Options,
+  type Outcome,
   type Session,
   type Specification,
 } from './session.ts';
 
 const sliceMilliseconds = 12;
+/** As many runs are made at most to meet a number of cells. */
+const mostTrials = 10;
+
+type Recorded = ReturnType<Session['takeEvents']>;
 
 /** The session, and what it was made of: enough to make it again. */
 interface Present extends Opened {
@@ -115,16 +120,16 @@ export class Server {
         return { version: version(core), cases: cases(core) };
       }
       case 'open': {
-        const { source, metric } = request.args;
+        const { source, metric, cells } = request.args;
         this.cancel();
-        const opened = await openSession(this.modules, source, metric);
+        const opened = await openSession(this.modules, source, metric, cells);
         this.replace({ ...opened, specification: { metric: opened.metric, options: {} } });
         return opened.session.mesh();
       }
       case 'metric':
         this.session().setMetric(request.args);
         this.cancel();
-        this.present!.specification.metric = request.args;
+        this.present!.metric = this.present!.specification.metric = request.args;
         return null;
       case 'makeMetric': {
         this.session(); // there must be a mesh: as it was opened, not what a run has made of it
@@ -181,45 +186,95 @@ export class Server {
   private async begin(id: number, options: Options): Promise<Run> {
     this.session();
     this.cancel();
-    const specification = { ...this.present!.specification, options };
+    const specification = { metric: this.present!.metric, options };
     const opened = await beginRun(this.modules, this.present!, specification);
     this.replace({ ...opened, specification });
     this.run = { id, session: opened.session, paused: false, cancelled: false, wake: () => undefined };
     return this.run;
   }
 
-  /** Steps in slices until the run is over. */
+  /** Steps in slices until the run is over; where it misses the number of cells that was asked for, with other sizes again. */
   private async play(run: Run): Promise<RunResult> {
-    const { id, session } = run;
     const started = performance.now();
     let events = 0;
+    const post = ({ ints, doubles }: Recorded): void => {
+      if (ints.length === 0) return;
+      events += countEvents(run.session.dimension(), ints);
+      this.port.postMessage({ type: 'events', id: run.id, ints, doubles }, [ints.buffer, doubles.buffer]);
+    };
+    const target = this.target();
+    const outcome = target ? await this.meet(target, run, post) : await this.advance(run, post);
+    if (this.run === run) this.run = null;
+    const live = outcome !== null || this.present?.session === run.session;
+    const report = live ? run.session.report() : '';
+    const seconds = (performance.now() - started) / 1000;
+    return { outcome: outcome ?? { status: 'cancelled', message: 'The run was stopped.' }, events, seconds, report };
+  }
+
+  /** The number of cells that was asked for, where layers alone do not meet it: full adaptation of quads does. */
+  private target(): number | undefined {
+    const { metric, session, specification } = this.present!;
+    return session.dimension() === 3 || specification.options.method === 'paper' ? metric?.cells : undefined;
+  }
+
+  /**
+   * Runs to the end with one factor on all sizes after the other, until there are so many cells, to 5 %. Hands the events of
+   * the nearest run over, and leaves its session. Null when it was cancelled before.
+   */
+  private async meet(target: number, run: Run, post: (recorded: Recorded) => void): Promise<Outcome | null> {
+    const dimension = run.session.dimension();
+    let [low, high, at] = [-20, 20, 0]; // logarithms of the factor
+    let best: { present: Present; outcome: Outcome; miss: number; held: Recorded[] } | null = null;
+    for (let trial = 1; trial <= mostTrials; ++trial) {
+      if (trial > 1) this.setOut(run, Math.exp(at), best?.present);
+      const held: Recorded[] = [];
+      const outcome = await this.advance(run, (recorded) => held.push(recorded));
+      if (!outcome) {
+        if (best && best.present !== this.present) best.present.session.destroy();
+        return null;
+      }
+      const ratio = (JSON.parse(run.session.report()) as { mesh: { cells: number } }).mesh.cells / target;
+      const miss = Math.abs(ratio - 1);
+      if (!best || miss < best.miss) {
+        best?.present.session.destroy();
+        best = { present: this.present!, outcome, miss, held };
+      }
+      if (best.miss <= 0.05) break;
+      if (ratio > 1) low = at;
+      else high = at;
+      at += Math.log(ratio) / dimension;
+      if (!(at > low && at < high)) at = (low + high) / 2;
+    }
+    if (this.present !== best!.present) this.replace(best!.present);
+    run.session = best!.present.session;
+    best!.held.forEach(post);
+    return best!.outcome;
+  }
+
+  /** The same run from its start, with all sizes as asked times a factor; the session before is freed unless it is kept. */
+  private setOut(run: Run, scale: number, kept?: Present): void {
+    const { core, source, metric, specification } = this.present!;
+    const next = { ...specification, metric: { ...metric!, scale } };
+    const { session } = prepared(core, source, next);
+    session.begin();
+    if (this.present !== kept) this.present!.session.destroy();
+    this.present = { core, source, metric, session, specification: next };
+    run.session = session;
+  }
+
+  /** Steps in slices to the end; null when it was cancelled before. */
+  private async advance(run: Run, take: (recorded: Recorded) => void): Promise<Outcome | null> {
+    const { session } = run;
     for (;;) {
       const end = performance.now() + sliceMilliseconds;
       let outcome = session.step();
       while (!outcome && performance.now() < end) outcome = session.step();
-      events += this.post(id, session);
-      if (outcome) {
-        this.run = null;
-        const seconds = (performance.now() - started) / 1000;
-        return { outcome, events, seconds, report: session.report() };
-      }
+      take(session.takeEvents());
+      if (outcome) return outcome;
       await nextTask();
       while (run.paused && !run.cancelled) await new Promise<void>((resolve) => (run.wake = resolve));
-      if (run.cancelled) {
-        const outcome = { status: 'cancelled', message: 'The run was stopped.' } as const;
-        const live = this.present?.session === session;
-        if (this.run === run) this.run = null;
-        return { outcome, events, seconds: (performance.now() - started) / 1000, report: live ? session.report() : '' };
-      }
+      if (run.cancelled) return null;
     }
-  }
-
-  private post(id: number, session: Session): number {
-    const { ints, doubles } = session.takeEvents();
-    if (ints.length === 0) return 0;
-    const count = decodeEvents(session.dimension(), ints, doubles).length;
-    this.port.postMessage({ type: 'events', id, ints, doubles }, [ints.buffer, doubles.buffer]);
-    return count;
   }
 
   /** An earlier mesh is made again from the recipe: runs are deterministic. */
@@ -235,8 +290,7 @@ export class Server {
       let count = 0;
       if (events > 0) again.begin();
       while (count < events && !again.step()) {
-        const { ints, doubles } = again.takeEvents();
-        count += decodeEvents(again.dimension(), ints, doubles).length;
+        count += countEvents(again.dimension(), again.takeEvents().ints);
       }
       return content(again);
     } finally {
@@ -253,6 +307,11 @@ function serve(port: MessagePort, modules: Modules): void {
     server.close();
     port.close();
   };
+}
+
+/** A session in the page itself, for pool.ts. */
+export function serverInPage(post: (reply: Reply) => void, modules: Setup['modules']): Server {
+  return new Server({ postMessage: post }, modulesFrom(modules));
 }
 
 /** `self` of a dedicated worker, without the DOM library's conflicting declaration of `self`. */

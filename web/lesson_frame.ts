@@ -8,6 +8,8 @@ interface Lesson {
   file: string;
   title: string;
   idea: string;
+  /** What is inside of an SVG of 48 x 48 units. */
+  drawing: string;
 }
 
 const folder = join(dirname(fileURLToPath(import.meta.url)), 'lessons');
@@ -23,7 +25,9 @@ function list(current: string): string {
 /** On the page of all lessons each has its idea in a sentence. */
 function cards(): string {
   const items = lessons.map(
-    ({ file, title, idea }) => `<li><a href="./${file}"><strong>${title}</strong><span>${idea}</span></a></li>`,
+    ({ file, title, idea, drawing }) =>
+      `<li><a href="./${file}"><svg viewBox="0 0 48 48" aria-hidden="true">${drawing}</svg>` +
+      `<strong>${title}</strong><span>${idea}</span></a></li>`,
   );
   return `<ol class="cards">${items.join('')}</ol>`;
 }

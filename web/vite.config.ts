@@ -32,6 +32,27 @@ function contentSecurityPolicy(): Plugin {
   };
 }
 
+/** The front page asks for its core at once, beside the code that will. */
+function preloadCore(): Plugin {
+  return {
+    name: 'preload-core',
+    apply: 'build',
+    transformIndexHtml: {
+      order: 'post',
+      handler: (_, { bundle, filename }) =>
+        filename === join(web, 'index.html')
+          ? Object.keys(bundle ?? {})
+              .filter((name) => /pillowmesh-[^/]*\.wasm$/.test(name))
+              .map((name) => ({
+                tag: 'link',
+                attrs: { rel: 'preload', as: 'fetch', crossorigin: '', href: `./${name}` },
+                injectTo: 'head',
+              }))
+          : [],
+    },
+  };
+}
+
 /** Shaders without their comments and indentation. */
 function shortShaders(): Plugin {
   return {
@@ -43,12 +64,17 @@ function shortShaders(): Plugin {
   };
 }
 
+/** Where no worker can be started a page imports the worker's file: what it exports stays. */
+function keepExports(): Plugin {
+  return { name: 'keep-exports', options: (options) => ({ ...options, preserveEntrySignatures: 'strict' }) };
+}
+
 export default defineConfig({
   root: web,
   base: './', // works from any folder of any static host
-  plugins: [lessonFrame(), contentSecurityPolicy(), shortShaders()],
+  plugins: [lessonFrame(), contentSecurityPolicy(), preloadCore(), shortShaders()],
   server: { fs: { allow: [dirname(web)] } },
-  worker: { format: 'es' },
+  worker: { format: 'es', plugins: () => [keepExports()] },
   build: {
     outDir: 'dist',
     emptyOutDir: true,
@@ -70,6 +96,7 @@ export default defineConfig({
             { name: 'three', test: /node_modules[\\/]three/ },
             { name: 'drawing', test: /src[\\/]viewport[\\/](?!palette)|stage[\\/]pointing|inside[\\/](anatomy|facets|irregular_edges|chords|relief)/ },
             { name: 'sketching', test: /src[\\/]sketch[\\/]|app[\\/](sketching|following)|style[\\/](sketch|following)/ },
+            { name: 'numbers', test: /panels[\\/](indicators\.|histogram|statistics)|data[\\/]published/ },
             { name: 'extras', test: /src[\\/]export[\\/]|app[\\/](saving|compare\.|brightness|camera_picture)|panels[\\/](help|embed_dialog|look_inside\.)/ },
             { name: 'common', test: /wasm[\\/]events|inside[\\/](look_inside|neighbours)|state[\\/]|ui[\\/]dom|replay[\\/]caption/ },
           ],

@@ -15,6 +15,7 @@ function besideTheCode(): Plugin {
     name: 'beside-the-code',
     enforce: 'pre',
     resolveId: (source) => {
+      if (source.endsWith('/server_code.ts')) return join(web, 'src/stage/server_code_bundled.ts');
       const name = /([\w-]+\.wasm)\?url$/.exec(source)?.[1] ?? (source.endsWith('worker.ts?worker&url') ? 'worker.js' : null);
       return name ? `\0beside:${name}` : null;
     },

@@ -32,3 +32,15 @@ TEST_CASE("continuation starts from the mesh's edges, halves its floor, and ends
   CHECK(c.done());
   CHECK(c.approach(fine).evaluate({0, 0, 0}) == fine.evaluate({0, 0, 0}));
 }
+
+TEST_CASE("growth is that per length where sizes grow along their direction, and more where they grow across it") {
+  CHECK(growth_per_length(cube(), formula("h = 0.3")) == 0.0);
+  CHECK(growth_per_length(cube(), formula("h = 0.02 + 0.6*x")) == Approx(0.6).epsilon(0.02));
+  CHECK(growth_per_length(cube(), formula("h1 = 0.02 + 0.6*x; h2 = 0.7; h3 = 0.7")) == Approx(0.6).epsilon(0.02));
+  // Thin in x, growing in y: .6 / h1 per unit, which is .7 times as long in the metric.
+  const double across = growth_per_length(cube(), formula("h1 = 0.1 + 0.6*y; h2 = 0.7; h3 = 0.7"));
+  CHECK(across == Approx(0.6 * 0.7 / 0.1).epsilon(0.05));
+  CHECK(across > growth_per_length(cube(), formula("h1 = 0.1 + 0.6*y; h2 = 0.3; h3 = 0.7")));
+  // A kink between two vertices of the mesh, edges of 0.2, is seen.
+  CHECK(growth_per_length(cube(), formula("h = 0.02 + 0.6*abs(x - 0.31)")) == Approx(0.6).epsilon(0.03));
+}

@@ -49,6 +49,26 @@ describe('the worker', () => {
     expect(JSON.parse(result.report).mesh.cells).toBeGreaterThan(500);
   });
 
+  test('meets a number of cells: full adaptation by the sizes alone, layers by trying other sizes', async () => {
+    const bench = new Bench();
+    await bench.call('open', { ...iso2d, cells: 900 });
+    expect(JSON.parse(await bench.call('report', {})).complexity).toBeCloseTo(900, 0);
+    const cells = async (options: Record<string, string>): Promise<number> =>
+      JSON.parse((await bench.call('run', { options })).report).mesh.cells;
+    expect(Math.abs((await cells({ method: 'full', effort: 'fast' })) / 900 - 1)).toBeLessThan(0.15);
+    bench.events = 0;
+    const layers = await bench.call('run', { options: { method: 'paper' } });
+    expect(Math.abs(JSON.parse(layers.report).mesh.cells / 900 - 1)).toBeLessThan(0.05);
+    expect(layers.events).toBe(bench.events); // of the run that counts, not of those before it
+    const file = new TextDecoder().decode(await bench.call('write', { name: 'a.mesh', events: layers.events }));
+    expect(Number(/Quadrilaterals\s+(\d+)/.exec(file)?.[1])).toBe(JSON.parse(layers.report).mesh.cells);
+    expect(await cells({ method: 'paper' })).toBe(JSON.parse(layers.report).mesh.cells); // whatever was run before
+    await bench.call('open', { source: { kind: 'case', name: 'circle2d' }, cells: 600 }); // its layers come in large numbers: the nearest
+    expect(Math.abs((await cells({ method: 'paper' })) / 600 - 1)).toBeLessThan(0.1);
+    await bench.call('metric', { formula: 'h = 1' });
+    expect(JSON.parse(await bench.call('report', {})).complexity).toBeCloseTo(4, 6);
+  });
+
   test('stops when told to, with what it had', async () => {
     const bench = new Bench();
     await bench.call('open', iso2d);

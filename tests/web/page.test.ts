@@ -245,7 +245,7 @@ describe('own input', () => {
 
   test('a grid can be typed', async () => {
     await visit();
-    await page.getByText('Another initial mesh').click();
+    await page.getByText('Another initial grid').click();
     await page.getByLabel('Grid').fill('grid:5,4:0,7,0,9');
     await page.getByLabel('Grid').press('Enter');
     await expect.poll(caption, eventually).toContain('20 quads');

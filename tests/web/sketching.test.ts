@@ -18,7 +18,7 @@ const done = () => expect.poll(() => page.locator('.following').isHidden(), even
 describe('sketching', () => {
   test('the mesh follows while a stroke is drawn, then improves; stop, undo, redo and a link keep what is shown', async () => {
     await visit('#mesh=grid:6,6:0,1,0,1&metric=h %3D 0.2&hide=ellipses', { bypassCSP: true });
-    await page.getByRole('button', { name: 'Sketch it instead' }).click();
+    await page.getByRole('button', { name: 'Draw', exact: true }).click();
     await page.getByRole('slider', { name: 'Size' }).fill('0.03');
     await page.getByRole('slider', { name: 'Stretch' }).fill('3');
     expect(await page.getByRole('slider', { name: 'Stretch' }).getAttribute('aria-valuetext')).toBe('3 : 1');
@@ -79,6 +79,22 @@ describe('sketching', () => {
     await done();
     await expect.poll(cells, eventually).toBe(two);
     expect(complaints).toEqual([]);
+  });
+
+  test('can be done by keys alone', async () => {
+    await visit('#mesh=grid:6,6:0,1,0,1&metric=h %3D 0.2&hide=ellipses&method=full&effort=fast');
+    await page.getByRole('button', { name: 'Draw', exact: true }).press('Enter');
+    const board = page.getByRole('application', { name: 'Drawing board' });
+    await board.focus();
+    for (const key of ['ArrowLeft', 'ArrowLeft', ' ', 'ArrowRight', 'ArrowRight', 'ArrowDown']) await page.keyboard.press(key);
+    expect(await page.locator('.board .brush').count()).toBe(1);
+    await page.keyboard.press('Shift+ArrowDown');
+    await page.keyboard.press(' ');
+    await expect.poll(() => part('sketch'), eventually).toMatch(/^0\.012,1:(-?[\d.]+,?){4,}$/);
+    await done();
+    expect(await cells()).toBeGreaterThan(60);
+    await page.keyboard.press('Escape');
+    await expect.poll(() => page.locator('.board').count()).toBe(0);
   });
 
   test('looking at another moment ends the search for better answers', async () => {

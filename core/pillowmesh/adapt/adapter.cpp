@@ -68,6 +68,7 @@ struct Adapter<Dim>::State {
   double energy = 0.0;  ///< after the last of them
   bool smoothed = false;  ///< the last smoothing is done; only a look at the lengths is left
   int rounds = 0;         ///< of refinement and last smoothing
+  double requested;       ///< threshold; that in the options may be lower
   double share = 0.0;     ///< of the work, as last reported
 
   Recorder<Dim> recorder;
@@ -87,11 +88,17 @@ struct Adapter<Dim>::State {
         continuation(mesh, field, full() ? 0 : options.continuation),
         augment(options.augment >= 0 ? options.augment : (Dim == 2 ? 1 : 0)),
         tagging(mesh, options.threshold),
+        requested(options.threshold),
         recorder(options.record) {
     if (options.geometry == BoundaryShape::smooth) mesh.geometry = smooth_geometry(std::move(mesh.geometry));
     outcome = field.check(mesh.points);
     if (outcome.ok() && full() && !mesh.frozen) halvings = halvings_to_come();
     target = aim();
+    if constexpr (Dim == 3)
+      if (outcome.ok() && continuation.steep() && options.continuation < 0 && options.smoothing != Smoothing::none) {
+        options.threshold = threshold_for(mesh, field, requested);
+        tagging = Tagging<Dim>(mesh, options.threshold);
+      }
     if (outcome.ok() && mesh.frozen && options.dice > 1)
       outcome = Status::usage("dicing would split what is frozen; leave out one of them");
     if (!outcome.ok()) stage = Stage::done;
@@ -119,7 +126,7 @@ struct Adapter<Dim>::State {
       case Stage::improve: improve(); break;
       case Stage::done: break;
     }
-    if (stage == Stage::done && outcome.ok()) outcome = check_frozen_edges(mesh, target, options.threshold);
+    if (stage == Stage::done && outcome.ok()) outcome = check_frozen_edges(mesh, target, requested);
     return stage != Stage::done;
   }
 
@@ -161,7 +168,7 @@ struct Adapter<Dim>::State {
     const bool over = seeds.empty() || !again || iteration - first_iteration == options.max_iterations;
     if (over && !continuation.done()) return lower_floor();
     if (over) {
-      if (!seeds.empty())
+      if (!seeds.empty() && !meets_request())
         outcome = Status::limit_not_met(
             again ? "edges longer than the threshold remain after " + std::to_string(iteration) + " iterations"
                   : "edges longer than the threshold remain where no layer can be inserted");
@@ -191,6 +198,11 @@ struct Adapter<Dim>::State {
     inserted = refused = 0;
     layer_marks.refined.clear();
     stage = Stage::layers;
+  }
+
+  /// Where the threshold is lower than asked for, edges above it are no failure.
+  [[nodiscard]] bool meets_request() const {
+    return options.threshold < requested && longest_edge(mesh, target) <= requested * (1.0 + kLongestEdgeTolerance);
   }
 
   /// Steps 2 and 3: form a layer, shrink it, connect it. Step 4 is the repetition until no tag is left.
@@ -257,12 +269,18 @@ struct Adapter<Dim>::State {
     ++iterations;
     if (options.record) longest = longest_edge(mesh, target);
     recorder.iteration(mesh, iteration, longest.value_or(0.0));
-    if (options.smoothing == Smoothing::between && inserted > 0) {
+    if (smooths_between() && inserted > 0) {
       stage = Stage::smooth_between;
       begin_smoothing();
     } else {
       stage = Stage::tag;
     }
+  }
+
+  /// Hexahedra that approach their metric in steps are smoothed for each of them, in each iteration.
+  [[nodiscard]] bool smooths_between() const {
+    return options.smoothing == Smoothing::between ||
+           (Dim == 3 && options.smoothing == Smoothing::end && continuation.steep());
   }
 
   void begin_smoothing() {

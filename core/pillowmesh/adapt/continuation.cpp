@@ -1,9 +1,13 @@
 #include "pillowmesh/adapt/continuation.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
+#include "pillowmesh/mesh/portable_math.h"
 #include "pillowmesh/mesh/topology.h"
+#include "pillowmesh/metric/length.h"
 #include "pillowmesh/metric/spectrum.h"
 
 namespace pillowmesh {
@@ -34,6 +38,38 @@ int steps_for(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
 }
 
 template <int Dim>
+double growth_per_length(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
+  constexpr int least = 4;
+  const double panel = default_panel<Dim>(mesh.points);
+  std::vector<Point<Dim>> samples;
+  std::vector<SymTensor<Dim>> tensors;
+  double greatest = 0.0;
+  for (const auto& [a, b] : unique_edges(mesh)) {
+    const Point<Dim> edge = mesh.points[b] - mesh.points[a];
+    const int pieces = std::max(panel_count(std::sqrt(edge.squaredNorm()), panel), least);
+    samples.clear();
+    for (int i = 0; i <= pieces; ++i) samples.emplace_back(mesh.points[a] + (static_cast<double>(i) / pieces) * edge);
+    tensors.resize(samples.size());
+    field.evaluate(samples, tensors);
+    double last_size = 0.0, last_length = 0.0;
+    for (int i = 0; i <= pieces; ++i) {
+      const double size = -0.5 * portable::log(spectrum(tensors[i]).value[Dim - 1]);
+      const double length = std::sqrt(dot(tensors[i], edge, edge)) / pieces;
+      if (i > 0) greatest = std::max(greatest, std::abs(size - last_size) / (0.5 * (length + last_length)));
+      last_size = size;
+      last_length = length;
+    }
+  }
+  return greatest;
+}
+
+template <int Dim>
+double threshold_for(const Mesh<Dim>& mesh, const MetricField<Dim>& field, double threshold) {
+  constexpr double well_sized = std::numbers::sqrt2, too_fast = 3.0;
+  return threshold > well_sized && growth_per_length(mesh, field) > too_fast ? well_sized : threshold;
+}
+
+template <int Dim>
 Continuation<Dim>::Continuation(const Mesh<Dim>& mesh, const MetricField<Dim>& field, int steps)
     : steps_(steps >= 0 ? steps : steps_for(mesh, field)), steep_(steps_ > 0) {
   if (steps_ > 0) floor_ = mean_edge(mesh);
@@ -54,5 +90,9 @@ template class Continuation<2>;
 template class Continuation<3>;
 template int steps_for(const Mesh<2>&, const MetricField<2>&);
 template int steps_for(const Mesh<3>&, const MetricField<3>&);
+template double threshold_for(const Mesh<2>&, const MetricField<2>&, double);
+template double threshold_for(const Mesh<3>&, const MetricField<3>&, double);
+template double growth_per_length(const Mesh<2>&, const MetricField<2>&);
+template double growth_per_length(const Mesh<3>&, const MetricField<3>&);
 
 }  // namespace pillowmesh

@@ -34,4 +34,16 @@ class Continuation {
 template <int Dim>
 int steps_for(const Mesh<Dim>& mesh, const MetricField<Dim>& field);
 
+/// The greatest change of the logarithm of the least size per unit of metric length, along the edges of the mesh. Where
+/// sizes grow in the direction in which they are least, it is their growth per length, dh/ds; where they grow in
+/// another, lengths tell less of it, and it is up to as many times that as the metric is stretched. Cost: some
+/// evaluations for each edge, and one for each panel of it (metric/length.h).
+template <int Dim>
+double growth_per_length(const Mesh<Dim>& mesh, const MetricField<Dim>& field);
+
+/// `threshold`, or sqrt 2 if that is less and the growth per length is above 3: then cells with longer edges have
+/// corners of such different sizes that no flat simplex has their lengths (docs/algorithm.md).
+template <int Dim>
+double threshold_for(const Mesh<Dim>& mesh, const MetricField<Dim>& field, double threshold);
+
 }  // namespace pillowmesh

@@ -13,7 +13,7 @@ namespace pillowmesh {
 /// When the paper's method relocates vertices.
 enum class Smoothing : std::uint8_t {
   none,
-  end,      ///< once, after the last refinement (the paper's Figure 7 c)
+  end,      ///< once, after the last refinement (the paper's Figure 7 c); as `between` where hexahedra approach in steps
   between,  ///< after every refinement iteration as well (Figure 7 i)
 };
 
@@ -45,7 +45,8 @@ struct AdaptOptions {
   BoundaryOptions boundary;
   /// Where new boundary vertices lie.
   BoundaryShape geometry = BoundaryShape::linear;
-  /// Metric length above which an edge is tagged. [Paper] section 4 step 1: about 2.
+  /// Metric length above which an edge is tagged. [Paper] section 4 step 1: about 2. In 3D, with
+  /// continuation left to choose, sqrt 2 where lengths hide how fast sizes grow (docs/algorithm.md).
   double threshold = 2.0;
   Smoothing smoothing = Smoothing::end;
   /// n > 1: refine to edges n times as long, then split every cell in n^Dim ("coarse refinement and dicing").

@@ -151,12 +151,13 @@ class TensorBuilder {
 // large numbers where sizes are small.
 template <int Dim>
 void keep_above(double size, int count, TensorLanes<Dim>& out) {
+  const double squared = size * size;
   for (int i = 0; i < count; ++i) {
     SymTensor<Dim> M;
     for (int k = 0; k < SymTensor<Dim>::size; ++k) M.m[k] = out[k][i];
     const double det = determinant(M);
     SymTensor<Dim> inverse = adjugate(M);
-    for (int d = 0; d < Dim; ++d) inverse.m[SymTensor<Dim>::at(d, d)] += size * size * det;
+    for (int d = 0; d < Dim; ++d) inverse.m[SymTensor<Dim>::at(d, d)] += squared * det;
     const double factor = det / determinant(inverse);
     const SymTensor<Dim> floored = adjugate(inverse);
     for (int k = 0; k < SymTensor<Dim>::size; ++k) out[k][i] = factor * floored.m[k];

@@ -6,6 +6,23 @@
 #include "pillowmesh/metric/operations.h"
 
 namespace pillowmesh {
+namespace {
+
+bool is_sum_of_squares(const Graph& graph, NodeId a) {
+  const Node& node = graph.nodes()[a];
+  const auto& [u, v, none] = node.operands;
+  return (node.op == Op::multiply && u == v) ||
+         (node.op == Op::add && is_sum_of_squares(graph, u) && is_sum_of_squares(graph, v));
+}
+
+/// The root of x^2 + y^2, squared, is not computed again: so atan2(z, sqrt(x^2 + y^2)) leads to the r that all use.
+NodeId square_of(Graph& graph, NodeId a) {
+  const Node node = graph.nodes()[a];
+  const bool root = node.op == Op::square_root && is_sum_of_squares(graph, node.operands[0]);
+  return root ? node.operands[0] : graph.make(Op::multiply, a, a);
+}
+
+}  // namespace
 
 int operand_count(Op op) {
   switch (op) {
@@ -193,7 +210,7 @@ NodeId Graph::simplify_circular(Op op, NodeId angle) {
   const Node node = nodes_[angle];
   if (node.op == Op::arc_tangent_2) {
     const auto [y, x, none] = node.operands;
-    const NodeId square = make(Op::add, make(Op::multiply, x, x), make(Op::multiply, y, y));
+    const NodeId square = make(Op::add, square_of(*this, x), square_of(*this, y));
     return make(cosine ? Op::cosine_of_arc : Op::sine_of_arc, cosine ? x : y, make(Op::square_root, square));
   }
   if (node.op == Op::negate) {

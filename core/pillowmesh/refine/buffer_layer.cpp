@@ -16,21 +16,34 @@ class Inserter {
   using C = Cell<Dim>;
 
   Inserter(Mesh<Dim>& mesh, PillowWorkspace<Dim>& work, BufferLayer<Dim>& layer)
-      : mesh_(mesh), hull_(work.hull), plan_(work.plan), touched_(work.touched), layer_(layer), sides_(work.sides),
-        old_vertex_cell_(work.old_vertex_cell), floor_(work.quality_floor) {}
+      : mesh_(mesh),
+        hull_(work.hull),
+        plan_(work.plan),
+        touched_(work.touched),
+        marks_(work.marks),
+        layer_(layer),
+        sides_(work.sides),
+        old_vertex_cell_(work.old_vertex_cell),
+        floor_(work.quality_floor) {}
 
   void rename_corners() {
     touched_.clear();
     layer_.changed.clear();
     layer_.old_corners.clear();
     layer_.old_twins.clear();
-    for (const CornerChange& change : plan_.changes) touched_.push_back(change.cell);
+    if (marks_.size() < mesh_.cells.size()) marks_.resize(mesh_.cells.size() + mesh_.cells.size() / 2, 0);
+    const auto touch = [&](CellId c) {
+      if (marks_[c]) return;
+      marks_[c] = 1;
+      touched_.push_back(c);
+    };
+    for (const CornerChange& change : plan_.changes) touch(change.cell);
     for (const auto& h : hull_.facets) {
-      touched_.push_back(h.inside);
-      if (h.outside != kNone) touched_.push_back(h.outside);
+      touch(h.inside);
+      if (h.outside != kNone) touch(h.outside);
     }
+    for (const CellId c : touched_) marks_[c] = 0;
     std::sort(touched_.begin(), touched_.end());
-    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
     for (const CellId c : touched_) {
       layer_.changed.push_back(c);
       layer_.old_corners.push_back(mesh_.cells[c]);
@@ -125,13 +138,16 @@ class Inserter {
   bool positive() const {
     for (CellId k = layer_.first_cell; k < mesh_.cell_count(); ++k)
       if (!good(mesh_.cells[k])) return false;
-    for (std::size_t i = 0; i < layer_.changed.size(); ++i)
-      if (!good(mesh_.cells[layer_.changed[i]], &layer_.old_corners[i])) return false;
+    for (std::size_t i = 0; i < layer_.changed.size(); ++i) {
+      const Corners<Dim>& cell = mesh_.cells[layer_.changed[i]];
+      if (cell == layer_.old_corners[i]) continue;  // outside: only its neighbours are others
+      if (!good(cell, &layer_.old_corners[i])) return false;
+    }
     return true;
   }
 
-  /// Boundary vertices take the support that their boundary facets ask for, now that the new cells have brought theirs. A
-  /// vertex that the outside keeps may have come off the boundary, or to slide where its copy takes its place on the
+  /// Boundary vertices take the support that their boundary facets ask for, now that the new cells have brought theirs.
+  /// A vertex that the outside keeps may have come off the boundary, or to slide where its copy takes its place on the
   /// curve or corner; a copy that has come to lie on the boundary starts at its origin. False if no entity fits. New
   /// facets on the boundary have all their vertices from there: what came from inside need not be looked at.
   bool supports_hold() {
@@ -284,6 +300,7 @@ class Inserter {
   Hull<Dim>& hull_;
   CopyPlan<Dim>& plan_;
   std::vector<CellId>& touched_;
+  std::vector<std::uint8_t>& marks_;
   BufferLayer<Dim>& layer_;
   std::vector<NewCellSide>& sides_;
   std::vector<CellId>& old_vertex_cell_;
@@ -291,8 +308,8 @@ class Inserter {
 };
 
 template <int Dim>
-Status try_to_insert(Mesh<Dim>& mesh, std::span<const CellId> shrink_set,
-                     std::span<const HalfFacetId> boundary_hull, PillowWorkspace<Dim>& work, BufferLayer<Dim>& layer) {
+Status try_to_insert(Mesh<Dim>& mesh, std::span<const CellId> shrink_set, std::span<const HalfFacetId> boundary_hull,
+                     PillowWorkspace<Dim>& work, BufferLayer<Dim>& layer) {
   work.plan.parting.clear();
   find_hull(mesh, shrink_set, boundary_hull, work.hull);
   Status status;

@@ -1,6 +1,7 @@
 // The refinement primitive: shrink a set of cells and fill the void with a buffer layer. [Paper] section 2, Figure 1.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct PillowWorkspace {
   Hull<Dim> hull;
   CopyPlan<Dim> plan;
   std::vector<CellId> touched;
+  std::vector<std::uint8_t> marks;  ///< per cell, and more; all 0 between calls
   std::vector<CellId> set;
   std::vector<NewCellSide> sides;
   std::vector<CellId> old_vertex_cell;
@@ -52,7 +54,8 @@ struct PillowWorkspace {
 ///      |     |     |          |/----|----\|
 ///      +-----+-----+          +-----+-----+
 ///
-/// Where the shrink set meets the domain's boundary the boundary is not hull, unless named in `boundary_hull`.
+/// Where the shrink set meets the domain's boundary the boundary is not hull, unless named in `boundary_hull`. In 3D the
+/// layer may go around more than asked for: see BufferLayer::added.
 /// \return illegal, with the mesh bit-for-bit unchanged, when there is no hull, a copy would leave the boundary, or no
 /// position keeps all corner Jacobians positive (above work.quality_floor). Cost: linear in the shrink set (no global work).
 /// Source: [Paper] section 2; Mitchell and Tautges, "Pillowing doublets" (1995); Schneiders (1996).

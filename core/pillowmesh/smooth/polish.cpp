@@ -36,7 +36,11 @@ double signed_shape(const SimplexLengths<3>& l) {
 class Polisher {
  public:
   Polisher(Mesh<3>& mesh, const MetricField<3>& field, const PolishOptions& options)
-      : mesh_(mesh), field_(field), options_(options), slot_(mesh.cells.size(), kNone) {}
+      : mesh_(mesh),
+        field_(field),
+        options_(options),
+        panel_(default_panel<3>(mesh.points)),
+        slot_(mesh.cells.size(), kNone) {}
 
   PolishResult run() {
     constexpr int patience = 5;  // sweeps: each tries other places
@@ -47,15 +51,13 @@ class Polisher {
     double last = total();
     for (int sweep = 1; sweep <= options_.max_sweeps && !poor_.empty(); ++sweep) {
       result.moved += move_all();
-      // Neighbours of poor cells may have become poor.
-      poor_.clear();
-      for (CellId c = 0; c < mesh_.cell_count(); ++c)
-        if (slot_[c] != kNone && known_[slot_[c]].shortfall > 0.0) poor_.push_back(c);
+      find_still_poor();
       if (sweep % patience != 0) continue;
       const double now = total();
       if (now > 0.95 * last) break;
       last = now;
     }
+    shake_loose(result);
     result.poor_after = static_cast<Index>(poor_.size());
     return result;
   }
@@ -80,6 +82,60 @@ class Polisher {
       if (std::min(flat[i], integral[i]) < roughly * options_.shape && known(cells[i]).shortfall > 0.0)
         poor_.push_back(cells[i]);
     return static_cast<Index>(cells.size());
+  }
+
+  /// Neighbours of poor cells may have become poor.
+  void find_still_poor() {
+    poor_.clear();
+    for (CellId c = 0; c < mesh_.cell_count(); ++c)
+      if (slot_[c] != kNone && known_[slot_[c]].shortfall > 0.0) poor_.push_back(c);
+  }
+
+  /// Cells that are still hardly a simplex, or none, are shaken in turns.
+  void shake_loose(PolishResult& result) {
+    constexpr int most = 48;
+    const double hardly = 0.25 * options_.shape * options_.shape;
+    std::vector<CellId> loose;
+    for (int i = 0; i < most; ++i) {
+      loose.clear();
+      for (const CellId c : poor_)
+        if (known_[slot_[c]].shortfall > hardly) loose.push_back(c);
+      if (loose.empty()) return;
+      result.moved += shake(loose[static_cast<std::size_t>(i) % loose.size()], i % 2 == 0 ? 0.8 : 0.4);
+      find_still_poor();
+    }
+  }
+
+  /// Where descent has come to rest: the corners of a poor cell are displaced, worse or not, and the descent begins
+  /// anew from there. What ends with a greater shortfall is taken back. \param reach in units of the shortest edge
+  /// \return the moves kept
+  Index shake(CellId c, double reach) {
+    constexpr int sweeps = 12;
+    journal_.clear();
+    saved_.clear();
+    touched_.clear();
+    change_ = 0.0;
+    journaling_ = true;
+    for (const VertexId v : mesh_.cells[c]) {
+      if (mesh_.support[v].dim == 0) continue;
+      const double length = take_up(v);
+      shortfall_ = INFINITY;
+      attempt(v, reach * length * next_direction());
+    }
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      vertices_.clear();
+      for (const CellId t : touched_)
+        if (known_[slot_[t]].shortfall > 0.0) add_vertices(t);
+      if (visit_all() == 0) break;
+    }
+    journaling_ = false;
+    if (change_ < 0.0) return static_cast<Index>(journal_.size());
+    for (std::size_t i = journal_.size(); i-- > 0;) {
+      mesh_.points[journal_[i].vertex] = journal_[i].from;
+      mesh_.anchor[journal_[i].vertex] = journal_[i].anchor;
+    }
+    for (std::size_t i = saved_.size(); i-- > 0;) known_[saved_[i].first] = saved_[i].second;
+    return 0;
   }
 
   [[nodiscard]] double total() const {
@@ -112,7 +168,8 @@ class Polisher {
       pairs[n] = {mesh_.cells[c][a], mesh_.cells[c][b]};
       at[n++] = j;
     }
-    edge_lengths<3>(field_, mesh_.points, std::span(pairs).first(n), std::span(found).first(n), {.tolerance = 1e-5});
+    edge_lengths<3>(field_, mesh_.points, std::span(pairs).first(n), std::span(found).first(n),
+                    {.tolerance = 1e-5, .panel = panel_});
     for (std::size_t i = 0; i < n; ++i) m.length[at[i]] = found[i];
   }
 
@@ -154,9 +211,16 @@ class Polisher {
   /// One visit of every vertex of a poor cell. \return how often one moved
   Index move_all() {
     vertices_.clear();
-    for (const CellId c : poor_)
-      for (const VertexId v : mesh_.cells[c])
-        if (mesh_.support[v].dim > 0) vertices_.push_back(v);
+    for (const CellId c : poor_) add_vertices(c);
+    return visit_all();
+  }
+
+  void add_vertices(CellId c) {
+    for (const VertexId v : mesh_.cells[c])
+      if (mesh_.support[v].dim > 0) vertices_.push_back(v);
+  }
+
+  Index visit_all() {
     std::sort(vertices_.begin(), vertices_.end());
     vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
     Index moved = 0;
@@ -164,21 +228,29 @@ class Polisher {
     return moved;
   }
 
-  /// Tries places around vertex v, the nearer the later, and goes on from each that is better.
-  Index visit(VertexId v) {
-    constexpr std::array<double, 8> reach{0.6, 0.3, 0.15, 0.08, 0.04, 0.2, 0.02, 0.01};
+  /// Gathers what is around vertex v. \return the length of the shortest edge there
+  double take_up(VertexId v) {
     vertex_star(mesh_, v, star_);
     shortfall_ = 0.0;
     double shortest2 = INFINITY;
     for (const auto& [c, corner] : star_) {
       shortfall_ += known(c).shortfall;
       for (int d = 0; d < 3; ++d)
-        shortest2 = std::min(shortest2, (mesh_.points[mesh_.cells[c][corner ^ (1 << d)]] - mesh_.points[v]).squaredNorm());
+        shortest2 =
+            std::min(shortest2, (mesh_.points[mesh_.cells[c][corner ^ (1 << d)]] - mesh_.points[v]).squaredNorm());
     }
+    before_ = shortfall_;
     lowest_ = least_scaled_jacobian();
+    return std::sqrt(shortest2);
+  }
+
+  /// Tries places around vertex v, the nearer the later, and goes on from each that is better.
+  Index visit(VertexId v) {
+    constexpr std::array<double, 8> reach{0.6, 0.3, 0.15, 0.08, 0.04, 0.2, 0.02, 0.01};
+    const double shortest = take_up(v);
     Index moved = 0;
     for (std::size_t i = 0; i < reach.size() && shortfall_ > 0.0; ++i)
-      moved += attempt(v, reach[i] * std::sqrt(shortest2) * next_direction());
+      moved += attempt(v, reach[i] * shortest * next_direction());
     return moved;
   }
 
@@ -217,11 +289,22 @@ class Polisher {
       mesh_.points[v] = from;
       return false;
     }
+    if (journaling_) remember(v, from);
     mesh_.anchor[v] = anchor;
     for (std::size_t i = 0; i < star_.size(); ++i) known_[slot_[star_[i].cell]] = trial_[i];
-    shortfall_ = shortfall;
+    change_ += shortfall - before_;
+    shortfall_ = before_ = shortfall;
     lowest_ = lowest;
     return true;
+  }
+
+  void remember(VertexId v, const Point<3>& from) {
+    journal_.push_back({v, from, mesh_.anchor[v]});
+    for (const CellCorner& s : star_) {
+      const Index slot = slot_[s.cell];
+      saved_.emplace_back(slot, known_[slot]);
+      if (std::find(touched_.begin(), touched_.end(), s.cell) == touched_.end()) touched_.push_back(s.cell);
+    }
   }
 
   /// Measures the star as it is now, first what is cheap. False as soon as it is no better than it was.
@@ -251,12 +334,25 @@ class Polisher {
   Mesh<3>& mesh_;
   const MetricField<3>& field_;
   PolishOptions options_;
+  double panel_;             ///< lengths as the report sees them: narrow features must not fall between samples
   std::vector<Index> slot_;  ///< per cell: its place in known_
   std::vector<Measured> known_, trial_;
   std::vector<CellId> poor_;
   std::vector<VertexId> vertices_;
   std::vector<CellCorner> star_;
   double shortfall_ = 0.0, lowest_ = 0.0;  ///< of the star
+  double before_ = 0.0;                    ///< the star's shortfall as it is, where shortfall_ tells what is allowed
+  /// What a shake has done, to be taken back.
+  struct Step {
+    VertexId vertex;
+    Point<3> from;
+    Index anchor;
+  };
+  bool journaling_ = false;
+  std::vector<Step> journal_;
+  std::vector<std::pair<Index, Measured>> saved_;  ///< places in known_, what was there
+  std::vector<CellId> touched_;
+  double change_ = 0.0;  ///< of the shortfall of all cells
   double tried_ = 0.0;
 };
 

@@ -21,14 +21,15 @@ struct PolishOptions {
 struct PolishResult {
   Index poor_before = 0;  ///< cells
   Index poor_after = 0;
-  Index moved = 0;        ///< moves of vertices
+  Index moved = 0;  ///< moves of vertices
 };
 
-/// Moves the vertices of poor cells to where the shortfall of the shapes around them, summed by squares, is less. Places
-/// are tried in many directions: the shortfall has too many kinks for derivatives. Where a corner's edges have the
-/// lengths of no flat simplex, how far they miss counts. Other cells may lose what they have above `shape`. Cost: linear
-/// in the mesh to find the poor cells, then about a millisecond for each poor cell and sweep. Uses nothing but the order of cells
-/// and vertices: the same everywhere.
+/// Moves the vertices of poor cells to where the shortfall of the shapes around them, summed by squares, is less.
+/// Places are tried in many directions: the shortfall has too many kinks for derivatives. Where a corner's edges have
+/// the lengths of no flat simplex, how far they miss counts. Other cells may lose what they have above `shape`. A cell
+/// that is no simplex after that is shaken: its corners are displaced, descent begins anew, and what is worse is taken
+/// back. Cost: linear in the mesh to find the poor cells, then about a millisecond for each poor cell and sweep, and
+/// some 20 for each shake. Uses nothing but the order of cells and vertices: the same everywhere.
 PolishResult polish_shapes(Mesh<3>& mesh, const MetricField<3>& field, const PolishOptions& options);
 
 }  // namespace pillowmesh

@@ -88,6 +88,31 @@ Point<Dim> step_along(const Tangent<Dim>& t, const Derivatives<Dim>& d) {
   return step;
 }
 
+/// What two places too far along a step tell of the slope at its beginning. At a kink of the metric the energy rises at
+/// once whichever way the derivatives, which are those of one side, point: then no place is worth a look.
+class Secant {
+ public:
+  /// The energy changed by `rise` at t times the step, where it should have fallen at the rate `descent`. From the
+  /// second place on sets `shorter` to the factor by which t leads to the least of the parabola through all. \return
+  /// false when there is little to gain.
+  bool add(double t, double rise, double descent, double& shorter) {
+    constexpr double little = 0.1;
+    if (!std::isfinite(rise)) return true;
+    const double mean = rise / t;
+    if (t_ > 0.0) {
+      const double bend = (mean_ - mean) / (t_ - t), slope = mean - bend * t;
+      if (slope >= -little * descent) return false;
+      shorter = std::min(std::max(-0.5 * slope / (bend * t), 0.1), 0.6);
+    }
+    t_ = t;
+    mean_ = mean;
+    return true;
+  }
+
+ private:
+  double t_ = 0.0, mean_ = 0.0;  ///< the last place, and the mean slope up to there
+};
+
 template <int Dim>
 double target_length(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
   if constexpr (Dim == 2) {
@@ -153,6 +178,7 @@ double Relocator<Dim>::relocate(VertexId v) {
   if constexpr (Dim == 3)
     if (star_.below(guard)) guard = star_.lowest_scaled_jacobian();
   double t = 1.0, shorter = 0.45;
+  [[maybe_unused]] Secant refused;
   for (int attempt = 0; attempt < 5; ++attempt, t *= shorter) {
     if (dot(metric, step, step) * t * t < 1e-2 * options_.rest * options_.rest) return 0.0;
     Index anchor = mesh_.anchor[v];
@@ -160,9 +186,12 @@ double Relocator<Dim>::relocate(VertexId v) {
     star_.look_at(to);
     const double energy = star_.energy();
     // Next to where the parabola through what is known has its minimum.
-    if constexpr (Dim == 3)
-      shorter = std::min(std::max(-0.5 * t * slope / (energy - d.value - t * slope), 0.2), 0.6);
-    if (!(energy <= d.value + 1e-4 * t * slope)) continue;
+    if constexpr (Dim == 3) shorter = std::min(std::max(-0.5 * t * slope / (energy - d.value - t * slope), 0.2), 0.6);
+    if (!(energy <= d.value + 1e-4 * t * slope)) {
+      if constexpr (Dim == 3)
+        if (!refused.add(t, energy - d.value, -slope, shorter)) return 0.0;
+      continue;
+    }
     if constexpr (Dim == 3)
       if (star_.below(guard)) continue;
     mesh_.points[v] = to;
@@ -179,7 +208,7 @@ template <int Dim>
 SweepResult Relocator<Dim>::sweep() {
   // In a metric with kinks many vertices come to lie where no step helps. To try there costs several times what a move
   // costs elsewhere: a neighbour must have moved by this many times what else is enough.
-  constexpr double wakes_stuck = 10.0;
+  constexpr double wakes_stuck = 30.0;
   SweepResult result;
   visited_.clear();
   for (VertexId v = 0; v < mesh_.vertex_count(); ++v) {
@@ -202,7 +231,8 @@ SweepResult Relocator<Dim>::sweep() {
   return result;
 }
 
-/// A vertex counts with no more than some times the energy that is usual: a single huge one says nothing about the others.
+/// A vertex counts with no more than some times the energy that is usual: a single huge one says nothing about the
+/// others.
 template <int Dim>
 bool Relocator<Dim>::little_gained() {
   constexpr double unusual = 32.0;

@@ -1,8 +1,8 @@
 // The page: settings, a stage, the panels around it, and what happens between them.
-import { CoreError } from '../../../wasm/session.ts';
+import { CoreError } from '../../../wasm/errors.ts';
 import { looksInside, pickedRange } from '../inside/look_inside.ts';
 import { makeHeader, type SaveFormat } from '../panels/header.ts';
-import { makeIndicators } from '../panels/indicators.ts';
+import { makeIndicators } from '../panels/indicators_later.ts';
 import { makeLookInside } from '../panels/look_inside_later.ts';
 import { makeMessages } from '../panels/messages.ts';
 import { makePictureTools } from '../panels/picture_tools.ts';
@@ -109,9 +109,14 @@ export class App {
       this.settings.options[name] = value;
       void (this.live.on ? this.live.follow() : this.stage.run.forget());
     },
+    changeTarget: (cells) => {
+      this.settings.targetCells = cells;
+      void this.rescale();
+    },
     sketch: () => void this.live.sketch(),
     compareWith: (compare) => this.change({ compare }),
     run: () => void (this.live.on ? this.live.follow() : this.stage.run.start('play')),
+    showEnd: () => void this.stage.seek(lastEvent),
     stop: () => void (this.live.working ? this.live.stop() : this.stage.run.stop()),
   });
   private readonly start_ = h(
@@ -281,6 +286,11 @@ export class App {
     }
   }
 
+  private async rescale(): Promise<void> {
+    await this.stage.workshop.abandon();
+    await this.stage.rescale().catch((error: unknown) => this.tell(error));
+  }
+
   private refused(error: unknown): void {
     if (error instanceof CoreError) this.setup.formula.setError(error.message);
     else this.tell(error);
@@ -341,9 +351,12 @@ export class App {
     });
     this.setup.update({
       mesh: settings.mesh,
+      dim,
       options: settings.options,
+      targetCells: settings.targetCells,
       compare: settings.compare,
       running: workshop.running || this.live.working,
+      behind: player.complete && player.events.length > 0 && !player.atEnd,
       summary: subject.empty ? '' : summaryOf(settings.mesh, subject.initial),
     });
     this.tools.update({ marks: settings.marks, colouring: settings.colouring, dim });

@@ -5,7 +5,7 @@ import { statistics } from '../panels/statistics.ts';
 import { cellWord } from '../replay/caption.ts';
 import { Stage } from '../stage/stage.ts';
 import { defaultMarks, lastEvent, optionDefaults, type OptionName, type Settings } from '../state/settings.ts';
-import { h } from '../ui/dom.ts';
+import { grouped, h } from '../ui/dom.ts';
 
 /** The settings of the second answer. */
 export function rivalSettings(settings: Settings, rival: string): Settings {
@@ -29,7 +29,7 @@ export function summaryOfMeasures(lengths: Float64Array, shapes: Float64Array, d
   const [l, eta] = [statistics(lengths), statistics(shapes)];
   if (!l || !eta) return '';
   const count = eta.row[0];
-  return `${count.toLocaleString('en')} ${cellWord(dim, count)}, l ${l.row[2].toFixed(2)}, cv ${l.row[4].toFixed(3)}, η ${eta.row[2].toFixed(2)}`;
+  return `${grouped(count)} ${cellWord(dim, count)}, l ${l.row[2].toFixed(2)}, cv ${l.row[4].toFixed(3)}, η ${eta.row[2].toFixed(2)}`;
 }
 
 /** Lays the second answer over `first`. */

@@ -15,8 +15,8 @@ export class Comparing {
 
   /** To be called when anything may have changed. */
   update(settings: Settings): void {
-    const { mesh, formula, sketch, options, compare } = settings;
-    const question = compare && !this.stage.subject.empty ? JSON.stringify([mesh, formula, sketch, options, compare]) : '';
+    const { mesh, formula, sketch, options, targetCells, compare } = settings;
+    const question = compare && !this.stage.subject.empty ? JSON.stringify([mesh, formula, sketch, options, targetCells, compare]) : '';
     if (question !== (this.shown?.question ?? '')) {
       this.shown?.comparison.then((old) => old.close()).catch(() => undefined);
       this.shown = question ? { question, comparison: this.begin(compare) } : null;

@@ -1,5 +1,5 @@
 // What went wrong, for the visitor.
-import { CrashError, LoadError } from '../../../wasm/loader.ts';
+import { CrashError, LoadError } from '../../../wasm/errors.ts';
 import type { Message } from '../panels/messages.ts';
 
 /** When the core is lost or could not be had, it can be asked for again. */

@@ -33,7 +33,7 @@ export async function saveShown(format: SaveFormat, stage: Stage): Promise<strin
   if (format === 'webm') {
     const { recordRun } = await import('../export/video.ts');
     if (!picture.canvas) throw new Error('There is no picture to film: this browser gives no WebGL 2.');
-    download(await recordRun(player, picture.canvas), name);
+    download(await recordRun(player, picture.canvas, () => picture.repaint()), name);
     return name;
   }
   const last = player.complete && player.atEnd;

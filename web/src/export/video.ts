@@ -2,11 +2,16 @@
 import type { Player } from '../replay/player.ts';
 
 const longest = 30_000;
+/** A file of fewer bytes has no picture in it. */
+const least = 1000;
 
-/** Rejects where the browser cannot record. The film ends with the run, or after half a minute. */
-export async function recordRun(player: Player, canvas: HTMLCanvasElement): Promise<Blob> {
+const wait = (milliseconds: number): Promise<void> => new Promise((resolve) => setTimeout(resolve, milliseconds));
+
+/** Rejects where the browser cannot record. The film ends with the run, or after half a minute. `draw` draws once more. */
+export async function recordRun(player: Player, canvas: HTMLCanvasElement, draw: () => void): Promise<Blob> {
   const type = ['video/webm;codecs=vp9', 'video/webm', 'video/mp4'].find((name) => globalThis.MediaRecorder?.isTypeSupported(name));
-  if (!type) throw new Error('This browser cannot record a film.');
+  if (!type)
+    throw new Error('This browser cannot record a film: it has no MediaRecorder for one. Pictures of single moments can be saved as .png.');
   if (player.events.length === 0) throw new Error('There is nothing to film yet: run it first.');
   player.pause();
   player.seek(0);
@@ -21,9 +26,14 @@ export async function recordRun(player: Player, canvas: HTMLCanvasElement): Prom
   player.play();
   const started = performance.now();
   while (player.playing && performance.now() - started < longest)
-    await new Promise((resolve) => setTimeout(resolve, 100));
+    await wait(100);
   player.pause();
-  await new Promise((resolve) => setTimeout(resolve, 600)); // the last picture stands
+  await wait(600); // the last picture stands
+  for (let i = 0; i < 50 && parts.reduce((all, { size }) => all + size, 0) < least; ++i) {
+    draw(); // a busy machine may have recorded none so far
+    await wait(100);
+    recorder.requestData();
+  }
   recorder.stop();
   await over;
   return new Blob(parts, { type });

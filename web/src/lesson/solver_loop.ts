@@ -1,7 +1,7 @@
 // Solve, estimate, adapt, and again: a solver in the page whose meshes a figure adapts, and the curve of its error.
 import '../../style/solver_loop.css';
 import { PillowMeshElement } from '../element/pillow_mesh.ts';
-import { h, svg } from '../ui/dom.ts';
+import { grouped, h, svg } from '../ui/dom.ts';
 import { asMedit, compacted, errorOf, solve, squares, type Plane } from './q1.ts';
 import { exact, needed, source, type Point } from './shock.ts';
 
@@ -105,7 +105,7 @@ export function makeSolverLoop(box: HTMLElement): void {
   })();
 }
 
-const count = (cells: number): string => Math.round(cells).toLocaleString('en');
+const count = (cells: number): string => grouped(Math.round(cells));
 
 /** Error over cells, both logarithmic. */
 function makeChart(): { element: SVGSVGElement; draw(uniform: readonly Point[], turns: readonly Point[]): void } {

@@ -38,7 +38,7 @@ export function snippetOf(wishes: SnippetWishes, link: string, site: string, wor
   if (wishes.kind === 'frame')
     return (
       `<iframe src="${escape(`${site}embed.html#${query}`)}" title="${escape(words)}"\n` +
-      `  width="100%" height="560" style="border: 0" loading="lazy" allowfullscreen></iframe>`
+      `  style="width: 100%; min-height: 480px; aspect-ratio: 10 / 9; border: 0" loading="lazy" allowfullscreen></iframe>`
     );
   return `[${words.replace(/[[\]]/g, '')}](${site}index.html#${link.replace(/[()]/g, encodeURIComponent)})`;
 }

@@ -55,7 +55,7 @@ export function makeFormulaField(onInput: (text: string) => void): FormulaField 
   const error = h('div', { class: 'mistake', id: 'formula-error', 'aria-live': 'polite' });
   const resize = (): void => {
     area.style.height = 'auto';
-    area.style.height = `${Math.min(220, area.scrollHeight + 2)}px`;
+    area.style.height = `${Math.min(150, area.scrollHeight + 2)}px`;
   };
   const element = h(
     'div',

@@ -1,6 +1,6 @@
 // The numbers of the displayed mesh, beside the rows that the paper published for its cases.
 import { published, type Row } from '../data/published.ts';
-import { h } from '../ui/dom.ts';
+import { grouped, h } from '../ui/dom.ts';
 import { makeHistogram } from './histogram.ts';
 import { statistics } from './statistics.ts';
 
@@ -10,7 +10,8 @@ export interface DisplayedNumbers {
 }
 
 export interface Indicators {
-  element: HTMLElement;
+  /** What fills the panel. */
+  content: HTMLElement[];
   setCase(name: string | null): void;
   /** The range that is shown alone, by which measure. */
   setPicked(measure: string, range: [number, number] | null): void;
@@ -113,10 +114,7 @@ export function makeIndicators(actions: IndicatorActions): Indicators {
     ticks: [0, 0.25, 0.5, 0.75, 1],
     pick: (picked) => actions.pick('eta', picked),
   });
-  const element = h(
-    'aside',
-    { class: 'panel numbers', 'aria-label': 'Indicators', tabindex: 0 },
-    h('h2', {}, 'The mesh in numbers'),
+  const content = [
     h('dl', { class: 'facts' }, cellCount.element, ideal.element, inRange.element, irregular.element),
     h('h3', {}, 'Metric edge length ', h('i', {}, 'l'), h('span', { class: 'aim' }, 'aim: 1')),
     lengthPlot.element,
@@ -130,7 +128,7 @@ export function makeIndicators(actions: IndicatorActions): Indicators {
       { class: 'hint' },
       'cv is the standard deviation divided by the mean. Drag over a histogram to show a range of cells alone; click it for all.',
     ),
-  );
+  ];
 
   let name: string | null = null;
   let last: DisplayedNumbers | null = null;
@@ -146,11 +144,11 @@ export function makeIndicators(actions: IndicatorActions): Indicators {
       shapes?.row ?? null,
       rows.map((r) => [r.label, r.shapes]),
     );
-    if (shapes) cellCount.set(shapes.row[0].toLocaleString('en'));
+    if (shapes) cellCount.set(grouped(shapes.row[0]));
     if (lengths) inRange.set(`${Math.round(100 * lengths.inRange)} %`);
   };
   return {
-    element,
+    content,
     setCase(next) {
       name = next;
       refresh();
@@ -159,8 +157,8 @@ export function makeIndicators(actions: IndicatorActions): Indicators {
       lengthPlot.setRange(measure === 'length' ? picked : null);
       shapePlot.setRange(measure === 'eta' ? picked : null);
     },
-    setIdealCells: (count) => ideal.set(count === null ? '–' : Math.round(count).toLocaleString('en')),
-    setIrregular: (count) => irregular.set(count === null ? '–' : count.toLocaleString('en')),
+    setIdealCells: (count) => ideal.set(count === null ? '–' : grouped(Math.round(count))),
+    setIrregular: (count) => irregular.set(count === null ? '–' : grouped(count)),
     update(numbers) {
       last = numbers;
       lengthPlot.update(numbers.lengths);

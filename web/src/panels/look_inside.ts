@@ -14,7 +14,7 @@ import {
   type Inside,
   type QualityMeasure,
 } from '../inside/look_inside.ts';
-import { h } from '../ui/dom.ts';
+import { grouped, h } from '../ui/dom.ts';
 
 export interface LookInsideActions {
   change(inside: Inside): void;
@@ -231,11 +231,11 @@ export function makeInsidePanel(actions: LookInsideActions): InsidePanel {
       legend.hidden = note.hidden = !next.irregular;
     },
     setReport({ kept, total, deepest: layers, irregular: found }) {
-      const words = `${kept.toLocaleString('en')} of ${total.toLocaleString('en')} hexes`;
+      const words = `${grouped(kept)} of ${grouped(total)} hexes`;
       if (drawn.textContent !== words) drawn.textContent = words;
       deepest = layers;
       showPeel();
-      found?.forEach((count, i) => (counts[i].textContent = count.toLocaleString('en')));
+      found?.forEach((count, i) => (counts[i].textContent = grouped(count)));
     },
   };
 }

@@ -53,8 +53,8 @@ const kindLabels: Record<EventKind, string> = {
   open: 'Open',
   chord_collapse: 'Row out',
   chord_split: 'Row in',
-  boundary_collapse: 'Join',
-  boundary_open: 'Let out',
+  boundary_collapse: 'Rows joined',
+  boundary_open: 'Rows let out',
 };
 
 export function makeTransport(actions: TransportActions): Transport {

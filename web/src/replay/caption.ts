@@ -1,5 +1,6 @@
 // Each event in one sentence.
 import type { MeshEvent } from '../../../wasm/events.ts';
+import { grouped } from '../ui/dom.ts';
 import type { ReplayMesh } from './replay_mesh.ts';
 
 export const cellWord = (dim: number, count: number): string => {
@@ -8,20 +9,26 @@ export const cellWord = (dim: number, count: number): string => {
 };
 
 const counted = (count: number, one: string, many: string): string =>
-  `${count.toLocaleString('en')} ${count === 1 ? one : many}`;
+  `${grouped(count)} ${count === 1 ? one : many}`;
 
 const longest = (length: number): string =>
   length > 0 ? `; the longest edge measures ${Number(length.toPrecision(3))}` : '';
 
-/** `total`: events known so far; `threshold`: as set, for the sentence about tags. */
-export function captionOf(event: MeshEvent | undefined, mesh: ReplayMesh, threshold: string, total: number): string {
+/** `total`: events known so far; `threshold`: as set, for the sentence about tags; `glyphs`: the metric is drawn. */
+export function captionOf(
+  event: MeshEvent | undefined,
+  mesh: ReplayMesh,
+  threshold: string,
+  total: number,
+  glyphs: boolean,
+): string {
   const cells = (count: number): string => counted(count, cellWord(mesh.dim, 1), cellWord(mesh.dim, 2));
   const now = (): string => cells(mesh.liveCellCount());
   if (!event) {
     if (total > 0) return `The initial mesh: ${now()}, before anything is done to it.`;
     const glyph = mesh.dim === 2 ? 'ellipse' : 'ellipsoid';
     return (
-      `The initial mesh: ${now()}. Each ${glyph} is the cell wanted there. ` +
+      `The initial mesh: ${now()}. ${glyphs ? `Each ${glyph} is the cell wanted there. ` : ''}` +
       'Press play: layers come in until every edge measures about 1 in the metric.'
     );
   }
@@ -52,19 +59,19 @@ export function captionOf(event: MeshEvent | undefined, mesh: ReplayMesh, thresh
       return `${moved} to even out size and shape in the metric.`;
     }
     case 'rotate':
-      return 'An edge is turned inside the hexagon of its two quads.';
+      return 'An edge is turned inside the hexagon of its two quads, and the vertices around are moved.';
     case 'collapse':
       return `A quad is removed by merging two opposite vertices; ${now()} are left.`;
     case 'open':
       return `A vertex is split along two of its edges, and a quad fills the gap; that gives ${now()}.`;
     case 'chord_collapse':
-      return `A whole row is removed; ${now()} are left.`;
+      return `A whole row is removed, from boundary to boundary or all around; ${now()} are left.`;
     case 'chord_split':
-      return `A whole row is doubled; that gives ${now()}.`;
+      return `A whole row is doubled, from boundary to boundary or all around; that gives ${now()}.`;
     case 'boundary_collapse':
-      return `Two boundary edges are laid on each other; ${now()} are left.`;
+      return `Two boundary edges are laid on each other, and the rows that ended there become one; ${now()} are left.`;
     case 'boundary_open':
-      return `A boundary vertex is split in three; that gives ${now()}.`;
+      return `A boundary vertex is split in three, and a row that turned inside ends there twice; that gives ${now()}.`;
     case 'iteration':
       return `Iteration ${iteration} ends with ${now()}${longest(value)}.`;
   }

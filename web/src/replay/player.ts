@@ -44,8 +44,10 @@ export class Player {
 
   /** Called when the shown mesh has changed. */
   onShow: (shown: Shown) => void = () => undefined;
-  /** Called when playing starts or stops, or events arrive. */
+  /** Called when playing starts or stops. */
   onState: () => void = () => undefined;
+  /** Called when events have arrived, many times a second. */
+  onGrow: () => void = () => undefined;
 
   private waited = 0;
   private playedSince = 0;
@@ -68,7 +70,7 @@ export class Player {
   append(events: MeshEvent[]): void {
     for (const event of events) this.events.push(event);
     if (this.following) this.move(this.events.length, 0);
-    else this.onState();
+    else this.onGrow();
   }
 
   /** Another run in place of this one, at its end so far; the caller shows it. */

@@ -24,7 +24,12 @@ export interface Board {
 }
 
 export function makeBoard(host: BoardHost): Board {
-  const surface = svg('svg', { class: 'board', 'aria-hidden': 'true' });
+  const surface = svg('svg', {
+    class: 'board',
+    tabindex: 0,
+    role: 'application',
+    'aria-label': 'Drawing board: arrow keys move the brush, with shift in small steps; space sets it down and lifts it; escape ends',
+  });
   const slider = (label: string, attributes: Record<string, number>, show: (value: number) => string) => {
     const output = h('output');
     const input = h('input', { type: 'range', ...attributes, oninput: () => write() });
@@ -43,7 +48,7 @@ export function makeBoard(host: BoardHost): Board {
   const panel = h(
     'section',
     { class: 'sketch-panel', 'aria-label': 'Sketch' },
-    h('p', { class: 'hint' }, 'Draw on the picture: cells become fine along the stroke, and as much longer along it as you stretch them. The mesh follows.'),
+    h('p', { class: 'hint' }, 'Draw on the picture: cells become fine along the stroke, and as much longer along it as you stretch them. The mesh follows. By keys: tab to the picture, arrows move the brush, space sets it down and lifts it.'),
     size.row,
     stretch.row,
     h(
@@ -56,6 +61,8 @@ export function makeBoard(host: BoardHost): Board {
   );
 
   let drawing: [number, number][] | null = null;
+  /** Where the keys have moved the brush, in the window; null while there is only a pointer. */
+  let brush: [number, number] | null = null;
   const place = (event: PointerEvent): [number, number] => host.picture.placeAt(event.clientX, event.clientY);
   /** All strokes, with the one that is being drawn. */
   const all = (): Stroke[] => {
@@ -64,11 +71,51 @@ export function makeBoard(host: BoardHost): Board {
     const points = simplified(drawing, 0.006 * extent);
     return [...host.strokes(), { size: size.value() * extent, stretch: stretches[stretch.value()], points }];
   };
+  const begin = (at: [number, number]): void => {
+    drawing = [at];
+    update();
+  };
+  const end = (): void => {
+    if (!drawing) return;
+    const strokes = all();
+    drawing = null;
+    host.change(strokes);
+    update();
+  };
+  surface.addEventListener('keydown', (event) => {
+    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+    if (event.ctrlKey || event.metaKey || event.altKey || !(step || event.key === ' ' || event.key === 'Escape')) return;
+    event.preventDefault();
+    event.stopPropagation(); // these keys play the run elsewhere
+    const box = surface.getBoundingClientRect();
+    brush ??= [box.left + box.width / 2, box.top + box.height / 2];
+    if (step) {
+      const length = (event.shiftKey ? 0.01 : 0.04) * Math.min(box.width, box.height);
+      brush = [
+        Math.min(box.right, Math.max(box.left, brush[0] + length * step[0])),
+        Math.min(box.bottom, Math.max(box.top, brush[1] + length * step[1])),
+      ];
+      if (drawing) {
+        drawing.push(host.picture.placeAt(...brush));
+        host.paint(all());
+      }
+      return update();
+    }
+    if (event.key === 'Escape') return host.close();
+    if (drawing) end();
+    else begin(host.picture.placeAt(...brush));
+  });
+  surface.addEventListener('mousedown', (event) => event.preventDefault()); // the focus is for keys
+  surface.addEventListener('blur', () => {
+    end();
+    brush = null;
+    update();
+  });
   surface.addEventListener('pointerdown', (event) => {
     if (event.button !== 0) return;
+    brush = null;
     surface.setPointerCapture(event.pointerId);
-    drawing = [place(event)];
-    update();
+    begin(place(event));
   });
   surface.addEventListener('pointermove', (event) => {
     if (!drawing) return;
@@ -76,12 +123,7 @@ export function makeBoard(host: BoardHost): Board {
     update();
     host.paint(all());
   });
-  surface.addEventListener('pointerup', () => {
-    if (!drawing) return;
-    const strokes = all();
-    drawing = null;
-    host.change(strokes);
-  });
+  surface.addEventListener('pointerup', end);
   surface.addEventListener('pointercancel', () => {
     if (!drawing) return;
     drawing = null;
@@ -103,6 +145,7 @@ export function makeBoard(host: BoardHost): Board {
         const line = svg('polyline', { points: ends.map((end) => end.map((x) => x.toFixed(1)).join(',')).join(' ') });
         return [line, ...glyphs(ends, unit, stretch)];
       }),
+      ...(brush ? [svg('circle', { class: 'brush', cx: brush[0] - box.left, cy: brush[1] - box.top, r: drawing ? 6 : 9 })] : []),
     );
   }
   return { panel, surface, update };

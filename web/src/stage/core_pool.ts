@@ -6,6 +6,7 @@ import solidUrl from '../../../build/wasm/pillowmesh3d.wasm?url';
 import filesUrl from '../../../build/wasm/pillowmesh_files.wasm?url';
 import metricsUrl from '../../../build/wasm/pillowmesh_metrics.wasm?url';
 import workerUrl from '../../../wasm/worker.ts?worker&url';
+import { loadServer } from './server_code.ts';
 
 let pool: Pool | null = null;
 
@@ -20,19 +21,33 @@ function importingWorker(address: string): Worker {
   return new Worker(URL.createObjectURL(code), { type: 'module' });
 }
 
+/**
+ * The module of every visit is compiled while it arrives, beside the worker's start. Where that fails its address stands
+ * for it: the worker tries again, and tells what is wrong.
+ */
+async function compiled(address: string): Promise<WebAssembly.Module | string> {
+  try {
+    return await WebAssembly.compileStreaming(fetch(address));
+  } catch {
+    return address;
+  }
+}
+
 export function corePool(): Pool {
+  if (pool) return pool;
   const address = absolute(workerUrl);
-  const modules = {
-    2: absolute(planeUrl),
+  const foreign = new URL(address).origin !== location.origin;
+  const modules = compiled(absolute(planeUrl)).then((plane) => ({
+    2: plane,
     full: absolute(fullUrl),
     3: absolute(solidUrl),
     files: absolute(filesUrl),
     metrics: absolute(metricsUrl),
-  };
-  const foreign = new URL(address).origin !== location.origin;
-  return (pool ??= new Pool(
+  }));
+  return (pool = new Pool(
     () => (foreign ? importingWorker(address) : new Worker(address, { type: 'module' })),
-    Promise.resolve(modules),
+    modules,
     most(),
+    () => loadServer(address),
   ));
 }

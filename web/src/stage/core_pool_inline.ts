@@ -6,6 +6,7 @@ import full from '../../../build/wasm/pillowmesh_full.wasm?packed';
 import solid from '../../../build/wasm/pillowmesh3d.wasm?packed';
 import files from '../../../build/wasm/pillowmesh_files.wasm?packed';
 import metrics from '../../../build/wasm/pillowmesh_metrics.wasm?packed';
+import { loadServer } from './server_code_bundled.ts';
 import InlineWorker from '../../../wasm/worker.ts?worker&inline';
 
 let pool: Pool | null = null;
@@ -23,5 +24,5 @@ async function unpackAll(): Promise<ModuleSources<ArrayBuffer>> {
 }
 
 export function corePool(): Pool {
-  return (pool ??= new Pool(() => new InlineWorker(), unpackAll(), 1));
+  return (pool ??= new Pool(() => new InlineWorker(), unpackAll(), 1, loadServer));
 }

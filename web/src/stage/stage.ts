@@ -38,11 +38,14 @@ export class Stage {
   /** Of the mesh as it was measured last. */
   measures: Measures | null = null;
   private readonly measuring = new Refresher(() => this.measure());
-  private readonly sampling = new Refresher(() => {
+  private readonly sampling = new Refresher(async () => {
+    if (this.run.awaited !== null) return this.sampling.request(200); // first what is waited for
     const { initial } = this.subject;
     const tensors = (points: Float64Array): Promise<Float64Array> => this.workshop.call('tensors', { points });
     return this.picture.refreshEllipses(initial, tensors, () => initial === this.subject.initial);
   });
+  /** In force; empty for a metric that is made. */
+  private formula = '';
   private pictureLoaded: Promise<void> = Promise.resolve();
   private readonly reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
   private readonly followMotion = (): void => void (this.player.still = this.reducedMotion.matches);
@@ -73,6 +76,14 @@ export class Stage {
       tick();
       host.refresh();
     };
+    let growing = 0;
+    player.onGrow = () => {
+      growing ||= requestAnimationFrame(() => {
+        growing = 0;
+        host.refresh();
+      });
+    };
+    this.workshop.targetCells = () => this.settings().targetCells;
     this.workshop.onCrash = (error) => host.tell(error);
     this.followMotion();
     this.reducedMotion.addEventListener('change', this.followMotion);
@@ -164,6 +175,14 @@ export class Stage {
     this.host.refresh();
   }
 
+  /** The metric in force, after another number of cells was wished for. */
+  async rescale(): Promise<void> {
+    await this.workshop.setMetricAgain();
+    this.host.opened(this.formula);
+    if (this.host.follow?.()) this.sampling.request(400);
+    else this.showInitial(false);
+  }
+
   /** A metric made from a picture, a solution, ...: it belongs to the session and to no link. */
   async setMadeMetric(request: MetricRequest): Promise<void> {
     const nodal = await this.workshop.call('makeMetric', request);
@@ -189,7 +208,8 @@ export class Stage {
   get caption(): string {
     const { player, subject } = this;
     if (subject.empty) return 'Loading';
-    return captionOf(player.current, player.mesh, this.settings().options.threshold, player.events.length);
+    const { options, marks } = this.settings();
+    return captionOf(player.current, player.mesh, options.threshold, player.events.length, marks.ellipses);
   }
 
   /** The settings with what is shown now: what a link holds. */
@@ -219,6 +239,7 @@ export class Stage {
   }
 
   private keepFormula(text: string): void {
+    this.formula = text;
     const settings = this.settings();
     settings.formula = settings.sketch || text === this.subject.ownFormula(settings.mesh) ? '' : text;
     this.host.opened(text);

@@ -4,18 +4,19 @@ import type { MeshArrays } from '../../../wasm/session.ts';
 import type { LegendContent } from '../panels/legend.ts';
 import { cellWord } from '../replay/caption.ts';
 import type { Colouring, MeshChoice } from '../state/settings.ts';
+import { grouped } from '../ui/dom.ts';
 
 /** "plate.msh: 63 quads, 80 vertices at the start" */
 export function summaryOf(choice: MeshChoice, { dim, cells, points }: MeshArrays): string {
   const count = cells.length >> dim;
   const name = choice.kind === 'file' ? `${choice.name}: ` : '';
-  const vertices = (points.length / dim).toLocaleString('en');
-  return `${name}${count.toLocaleString('en')} ${cellWord(dim, count)}, ${vertices} vertices at the start`;
+  const vertices = grouped(points.length / dim);
+  return `${name}${grouped(count)} ${cellWord(dim, count)}, ${vertices} vertices at the start`;
 }
 
 /** "2,326 quads in 0.8 s." and, if something is left to say, that. */
 export function outcomeOf({ outcome, seconds }: RunResult, cells: number | undefined, dim: number): string {
-  const made = cells === undefined ? 'Done' : `${cells.toLocaleString('en')} ${cellWord(dim, cells)}`;
+  const made = cells === undefined ? 'Done' : `${grouped(cells)} ${cellWord(dim, cells)}`;
   const sentence = `${made} in ${seconds.toFixed(seconds < 10 ? 1 : 0)} s.`;
   return outcome.status === 'ok' ? sentence : `${sentence} ${outcome.message}`;
 }

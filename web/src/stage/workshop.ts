@@ -1,7 +1,7 @@
 // The computing side of a picture: a session in the pool, made again when it is lost.
 import { Client } from '../../../wasm/client.ts';
 import type { MeshEvent } from '../../../wasm/events.ts';
-import type { CrashError } from '../../../wasm/loader.ts';
+import type { CrashError } from '../../../wasm/errors.ts';
 import type { CallName, Calls, RunResult } from '../../../wasm/protocol.ts';
 import type { MeshArrays, MeshSource, MetricSpec } from '../../../wasm/session.ts';
 import { corePool } from './core_pool.ts';
@@ -11,9 +11,15 @@ export class Workshop {
   onEvents: (events: MeshEvent[]) => void = () => undefined;
   onCrash: (error: CrashError) => void = () => undefined;
 
+  /** Every metric is scaled to so many cells, if that is said. */
+  targetCells: () => number | null = () => null;
+
   /** Connected when it is first needed. */
   private present: Client | null = null;
   private dimension = 2;
+  /** What is open, to ask for it again. */
+  private source: MeshSource | null = null;
+  private metric: MetricSpec | null = null;
   private run: number | null = null;
 
   /** Frees the session. With the next call there is a new one, in which a mesh must be opened again. */
@@ -32,15 +38,26 @@ export class Workshop {
   }
 
   async open(source: MeshSource, metric?: MetricSpec): Promise<MeshArrays> {
-    const mesh = await this.call('open', { source, ...(metric ? { metric } : {}) });
+    const cells = this.targetCells();
+    const mesh = await this.call('open', { source, ...(metric ? { metric } : {}), ...(cells ? { cells } : {}) });
     this.dimension = mesh.dim;
+    this.source = source;
+    this.metric = metric ?? null;
     this.run = null;
     return mesh;
   }
 
   async setMetric(metric: MetricSpec): Promise<void> {
-    await this.call('metric', metric);
+    const cells = this.targetCells();
+    await this.call('metric', cells ? { ...metric, cells } : metric);
+    this.metric = metric;
     this.run = null;
+  }
+
+  /** The metric that is in force once more, after another number of cells was wished for. */
+  async setMetricAgain(): Promise<void> {
+    if (this.metric) await this.setMetric(this.metric);
+    else if (this.source) await this.open(this.source);
   }
 
   get running(): boolean {

@@ -20,6 +20,7 @@ export const stateNames = [
   'metric',
   'sketch',
   ...(Object.keys(optionDefaults) as OptionName[]),
+  'target-cells',
   'colour',
   'hide',
   'show',
@@ -60,6 +61,7 @@ export function encodeSettings(settings: Settings): string {
   if (settings.sketch) query.set('sketch', settings.sketch);
   for (const [name, value] of Object.entries(settings.options))
     if (value !== optionDefaults[name as OptionName]) query.set(name, value);
+  if (settings.targetCells) query.set('target-cells', String(settings.targetCells));
   if (settings.colouring !== standard.colouring) query.set('colour', settings.colouring);
   const switched = (to: boolean): string =>
     marks.filter((mark) => settings.marks[mark] === to && standard.marks[mark] !== to).join(',');
@@ -85,6 +87,8 @@ export function decodeSettings(fragment: string): Settings {
   settings.sketch = get('sketch') ?? '';
   for (const option of Object.keys(optionDefaults) as OptionName[])
     settings.options[option] = get(option) ?? optionDefaults[option];
+  const target = Number(get('target-cells'));
+  if (target >= 1 && Number.isFinite(target)) settings.targetCells = target;
   settings.colouring = colourings.find((c) => c === get('colour')) ?? settings.colouring;
   for (const mark of marks) {
     if ((get('hide') ?? '').split(',').includes(mark)) settings.marks[mark] = false;
@@ -101,7 +105,7 @@ export function decodeSettings(fragment: string): Settings {
 
 /** Whether two states show the same run, if perhaps not the same moment of it. */
 export function sameComputation(a: Settings, b: Settings): boolean {
-  const question = ({ mesh, formula, sketch, options }: Settings): string =>
-    JSON.stringify([mesh, formula, sketch, options]);
+  const question = ({ mesh, formula, sketch, options, targetCells }: Settings): string =>
+    JSON.stringify([mesh, formula, sketch, options, targetCells]);
   return question(a) === question(b);
 }

@@ -57,6 +57,8 @@ export interface Settings {
   /** Strokes that the metric is drawn with, as sketch/sketch.ts writes them; empty: it is a formula's. */
   sketch: string;
   options: Options;
+  /** Sizes are scaled to make so many cells; null: as the metric says. */
+  targetCells: number | null;
   colouring: Colouring;
   marks: Record<Mark, boolean>;
   /** In 3D: what is cut away and made transparent. */
@@ -76,6 +78,7 @@ export function defaultSettings(): Settings {
     formula: '',
     sketch: '',
     options: { ...optionDefaults },
+    targetCells: null,
     colouring: 'plain',
     marks: { ...defaultMarks },
     inside: defaultInside(),

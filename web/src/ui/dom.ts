@@ -64,3 +64,6 @@ export function showOnce(dialog: HTMLDialogElement): HTMLDialogElement {
   dialog.addEventListener('close', () => dialog.remove());
   return dialog;
 }
+
+/** "1,402": `toLocaleString` would load the browser's tables of all languages first. */
+export const grouped = (count: number): string => String(count).replace(/\B(?=(\d{3})+$)/g, ',');

@@ -22,9 +22,17 @@ interface Piece {
 }
 
 function at({ corners, low, high }: Piece, place: number[]): number[] {
-  const local = place.map((s, d) => low[d] + s * (high[d] - low[d]));
-  const weights = corners.map((_, k) => local.reduce((w, s, d) => w * ((k >> d) & 1 ? s : 1 - s), 1));
-  return place.map((_, d) => weights.reduce((sum, w, k) => sum + w * corners[k][d], 0));
+  const dim = place.length;
+  const found = new Array<number>(dim).fill(0);
+  for (let k = 0; k < corners.length; ++k) {
+    let weight = 1;
+    for (let d = 0; d < dim; ++d) {
+      const s = low[d] + place[d] * (high[d] - low[d]);
+      weight *= (k >> d) & 1 ? s : 1 - s;
+    }
+    for (let d = 0; d < dim; ++d) found[d] += weight * corners[k][d];
+  }
+  return found;
 }
 
 /** v'Mv of the i-th tensor: m11 m12 m22 [m13 m23 m33]. */
@@ -91,14 +99,33 @@ export async function sampleEllipses(mesh: ReplayMesh, tensors: Tensors): Promis
   return withoutOverlaps(centres, metric, size);
 }
 
-/** Keeps, in order, what is far enough from all that was kept before. */
+/** How far the i-th ellipse or ellipsoid goes along x: the square root of the first entry of its tensor's inverse. */
+function reach(m: ArrayLike<number>, i: number, size: number): number {
+  const [a, b, c, d = 0, e = 0, f = 0] = Array.from({ length: size }, (_, k) => m[size * i + k]);
+  if (size === 3) return Math.sqrt(c / (a * c - b * b));
+  const minor = c * f - e * e;
+  return Math.sqrt(minor / (a * minor - b * (b * f - d * e) + d * (b * e - c * d)));
+}
+
+/** Keeps, in order, what is far enough from all that was kept before; looked for in slabs across x. */
 function withoutOverlaps(centres: number[][], metric: number[], size: number): EllipseSamples {
   const kept: number[] = [];
+  let [low, high] = [Infinity, -Infinity];
+  for (const [x] of centres) [low, high] = [Math.min(low, x), Math.max(high, x)];
+  const slabs = Array.from({ length: 256 }, (): number[] => []);
+  const slabOf = (x: number): number =>
+    Math.min(slabs.length - 1, Math.max(0, Math.floor(((x - low) / (high - low || 1)) * slabs.length)));
   const near = (i: number, j: number): boolean => {
     const away = centres[i].map((x, d) => x - centres[j][d]);
     return square(metric, i, away) < apart * apart && square(metric, j, away) < apart * apart;
   };
-  centres.forEach((_, i) => kept.some((j) => near(i, j)) || kept.push(i));
+  centres.forEach(([x], i) => {
+    const far = apart * reach(metric, i, size);
+    for (let slab = slabOf(x - far), last = slabOf(x + far); slab <= last; ++slab)
+      if (slabs[slab].some((j) => near(i, j))) return;
+    slabs[slabOf(x)].push(i);
+    kept.push(i);
+  });
   return {
     centres: Float64Array.from(kept.flatMap((i) => centres[i])),
     tensors: Float64Array.from(kept.flatMap((i) => metric.slice(size * i, size * (i + 1)))),

@@ -46,6 +46,8 @@ export class Viewport {
   private origins: Origins | undefined;
   private frame = 0;
   private size = '';
+  /** Nothing is drawn before the shaders are there. */
+  private ready = false;
   private animation: { start: number; duration: number } | null = null;
   private shown: Record<Mark, boolean> = { ...defaultMarks };
 
@@ -53,6 +55,7 @@ export class Viewport {
   constructor(host: HTMLElement) {
     this.host = host;
     this.renderer = new WebGLRenderer({ antialias: true, powerPreference: 'low-power' });
+    this.renderer.debug.checkShaderErrors = false; // each look would wait for the driver
     this.canvas = this.renderer.domElement;
     host.append(this.canvas, this.triad.element);
     for (const layer of this.layers) this.three.add(layer.object);
@@ -70,6 +73,7 @@ export class Viewport {
       this.onContext(false);
       this.requestRender();
     });
+    void this.compile();
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(host);
   }
@@ -254,6 +258,23 @@ export class Viewport {
     this.triad.element.remove();
   }
 
+  /** Has the shaders made, and waits for that without standing in the way of the page: to draw with them would. */
+  private async compile(): Promise<void> {
+    this.renderer.compile(this.three, this.view.camera);
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    const programs = this.renderer.info.programs ?? [];
+    for (const { program } of programs) gl.useProgram(program as WebGLProgram); // links it
+    this.renderer.resetState();
+    const made = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    while (made && gl.clientWaitSync(made, 0, 0) === gl.TIMEOUT_EXPIRED)
+      await new Promise((resolve) => setTimeout(resolve, 8));
+    gl.deleteSync(made);
+    for (const program of programs) program.getUniforms(); // asks the driver: at once, not behind the first picture
+    this.ready = true;
+    this.requestRender();
+  }
+
   /** The frustum anew; the canvas, which costs, only when its size has changed. */
   private resize(): void {
     const width = Math.max(1, this.host.clientWidth);
@@ -290,6 +311,7 @@ export class Viewport {
   private draw(now: number): void {
     cancelAnimationFrame(this.frame);
     this.frame = 0;
+    if (!this.ready) return;
     if (this.animation) {
       const { start, duration } = this.animation;
       const t = Math.min(1, Math.max(0, (now - start) / duration));
