@@ -1,4 +1,4 @@
-// Dialogs of the page, loaded when they are wanted.
+// Dialogs of the page, loaded when they are wanted, and its link.
 import type { Messages } from '../panels/messages.ts';
 import { showOnce } from '../ui/dom.ts';
 
@@ -15,4 +15,13 @@ export async function showEmbed(link: string, caption: string, messages: Message
   );
   showOnce(dialog.element);
   dialog.show(link, caption);
+}
+
+/** The address, which holds all of the state, to the clipboard where that is allowed. */
+export async function copyAddress(messages: Messages): Promise<void> {
+  const copied = await navigator.clipboard.writeText(location.href).then(() => true, () => false);
+  const text = copied
+    ? 'The link is copied: it shows exactly this, event and camera included.'
+    : 'The address bar holds the link to exactly this; copy it from there.';
+  messages.show({ kind: 'note', text });
 }
