@@ -19,9 +19,11 @@ export async function showEmbed(link: string, caption: string, messages: Message
 
 /** The address, which holds all of the state, to the clipboard where that is allowed. */
 export async function copyAddress(messages: Messages): Promise<void> {
-  const copied = await navigator.clipboard.writeText(location.href).then(() => true, () => false);
-  const text = copied
-    ? 'The link is copied: it shows exactly this, event and camera included.'
-    : 'The address bar holds the link to exactly this; copy it from there.';
+  let text = 'The link is copied: it shows exactly this, event and camera included.';
+  try {
+    await navigator.clipboard.writeText(location.href);
+  } catch {
+    text = 'The address bar holds the link to exactly this; copy it from there.'; // forbidden, or no clipboard there
+  }
   messages.show({ kind: 'note', text });
 }
