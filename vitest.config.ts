@@ -1,6 +1,9 @@
 import { availableParallelism } from 'node:os';
 import { defineConfig } from 'vitest/config';
 
+/** How much is run at a time: what scripts/test.mjs says, or as the machine has cores. */
+const jobs = Number(process.env.PILLOWMESH_JOBS) || availableParallelism();
+
 // One project per suite of scripts/test.mjs. The suites that build, start programs or drive a browser run one file at
 // a time: the machine may have two cores.
 const project = (name: string, timeout: number, serial = true, globalSetup: string[] = []) => ({
@@ -12,8 +15,8 @@ const project = (name: string, timeout: number, serial = true, globalSetup: stri
     hookTimeout: timeout,
     expect: { poll: { timeout: timeout / 2 } }, // a busy machine is no failure
     fileParallelism: !serial,
-    // Vitest leaves one core free, which of two is half.
-    maxWorkers: serial ? 1 : availableParallelism(),
+    // Vitest would leave one core free, which of two is half.
+    maxWorkers: serial ? 1 : jobs,
     globalSetup,
   },
 });

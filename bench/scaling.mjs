@@ -66,8 +66,8 @@ function addRatios(rows) {
   for (const row of rows) row.rate_relative_to_30k = row.cells_per_second / reference.cells_per_second;
 }
 
-await main(() => {
-  build('release');
+await main(async () => {
+  await build('release');
   const rows = [];
   // Each step gives about four times the cells: stop before the next would pass the limit by far.
   for (let scale = 1; rows.length === 0 || rows.at(-1).cells < maxCells / 2; scale /= rows[0].dim === 3 ? 2 ** (2 / 3) : 2) {

@@ -15,6 +15,10 @@ function(pillowmesh_compile_options target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # Position-independent code without it is not inlined: any function could be replaced at run time.
     target_compile_options(${target} PRIVATE -fno-semantic-interposition)
+    # A unity build includes sources: GCC then warns of what is in their unnamed namespaces.
+    if(CMAKE_UNITY_BUILD)
+      target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
+    endif()
   endif()
   if(PILLOWMESH_WARNINGS AND NOT MSVC)
     target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Werror>)

@@ -7,7 +7,9 @@ add_executable(pillowmesh_tests ${test_sources})
 pillowmesh_compile_options(pillowmesh_tests)
 # Most of the time that tests take is that of their compilation.
 target_precompile_headers(pillowmesh_tests PRIVATE tests/catch.h core/pillowmesh/mesh/mesh.h)
-set_source_files_properties(tests/core/main.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON)  # defines before it includes
+pillowmesh_unite(pillowmesh_tests 12)
+set_source_files_properties(tests/core/main.cpp PROPERTIES  # defines before it includes
+  SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
 if(NOT MSVC)
   target_compile_options(pillowmesh_tests PRIVATE $<$<CONFIG:Release>:-O1>)
 endif()

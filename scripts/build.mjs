@@ -3,10 +3,13 @@
 import { existsSync, readFileSync, rmSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
-import { Failure, isMain, main, root, run } from './run.mjs';
+import { Failure, isMain, main, root, start } from './run.mjs';
 
-/** Configures (once) and builds a preset of CMakePresets.json. Everything printed goes to stderr. */
-export function build(preset) {
+/**
+ * Configures (once) and builds a preset of CMakePresets.json, with so many compilers at a time. Everything printed goes to
+ * stderr, or to the file descriptor `to`.
+ */
+export async function build(preset, { jobs = availableParallelism(), to } = {}) {
   const folder = join(root, 'build', preset);
   const cache = join(folder, 'CMakeCache.txt');
   // A checkout that was moved or copied with its build folder cannot go on with it.
@@ -15,16 +18,17 @@ export function build(preset) {
   }
   if (!existsSync(join(folder, 'build.ninja'))) {
     console.error(`Configuring ${preset}`);
-    const configured = run('cmake', ['--preset', preset], { stdout: 2 });
-    if (!configured) throw new Failure(`cmake --preset ${preset} failed (see above)`);
+    if (!(await start('cmake', ['--preset', preset], { stdout: 2, to }))) throw new Failure(`cmake --preset ${preset} failed (see above)`);
   }
   console.error(`Building ${preset}`);
-  if (!run('cmake', ['--build', '--preset', preset, '-j', String(availableParallelism())], { stdout: 2 })) {
+  if (!(await start('cmake', ['--build', '--preset', preset, '-j', String(jobs)], { stdout: 2, to }))) {
     throw new Failure(`building ${preset} failed (see above)`);
   }
 }
 
 if (isMain(import.meta)) {
   const presets = process.argv.slice(2);
-  await main(() => (presets.length > 0 ? presets : ['release', 'wasm']).forEach(build));
+  await main(async () => {
+    for (const preset of presets.length > 0 ? presets : ['release', 'wasm']) await build(preset);
+  });
 }

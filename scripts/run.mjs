@@ -1,5 +1,5 @@
 // Small helpers that the other scripts share. Plain Node: they run before any package is installed.
-import { spawnSync } from 'node:child_process';
+import { spawn, spawnSync } from 'node:child_process';
 import { accessSync, constants } from 'node:fs';
 import { delimiter, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -33,6 +33,22 @@ export function run(command, args, { env = {}, quiet = false, stdout = 1, cwd = 
     stdio: quiet ? 'ignore' : ['ignore', stdout, 2],
   });
   return result.status === 0;
+}
+
+/**
+ * The same without waiting. `to`: a file descriptor for all of its output.
+ * @returns a promise of true when it ended with status 0
+ */
+export function start(command, args, { env = {}, to, stdout = 1, cwd = root } = {}) {
+  return new Promise((resolve) => {
+    const child = spawn(command, args, {
+      cwd,
+      env: { ...process.env, ...env },
+      stdio: ['ignore', to ?? stdout, to ?? 2],
+    });
+    child.on('error', () => resolve(false));
+    child.on('close', (status) => resolve(status === 0));
+  });
 }
 
 /** Standard output of a command, '' when it cannot be run. Its exit status is not looked at. */

@@ -6,9 +6,9 @@ import { build } from './build.mjs';
 import { main, root } from './run.mjs';
 import { setup } from './setup.mjs';
 
-await main(() => {
+await main(async () => {
   setup('start');
-  build('wasm');
+  await build('wasm');
   const vite = join(root, 'node_modules', 'vite', 'bin', 'vite.js');
   const server = spawn(process.execPath, [vite, 'web', ...process.argv.slice(2)], { cwd: root, stdio: 'inherit' });
   server.on('exit', (status) => process.exit(status ?? 1));

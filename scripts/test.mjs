@@ -1,22 +1,25 @@
 // npm test: installs what is missing, builds native and WebAssembly, runs every suite, and ends with one line
 // `N passed, N failed`. Usage: npm test [-- SUITE...]; a suite that ran no test counts as failed.
-import { mkdirSync, rmSync, writeFileSync } from 'node:fs';
+import { closeSync, mkdirSync, openSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
 import { build } from './build.mjs';
+import { inLanes } from './lanes.mjs';
 import { Failure, root } from './run.mjs';
 import { setup } from './setup.mjs';
 import { catch2, typescript, unittest, vitest } from './suites.mjs';
 
+/** Each suite with the builds that it looks at, those first that take long. */
 const suites = {
-  structure: vitest,
-  types: typescript,
-  core: catch2,
-  cli: vitest,
-  io: unittest,
-  package: vitest,
-  wasm: vitest,
-  parity: vitest,
-  web: vitest,
+  web: { run: vitest, needs: ['wasm'] },
+  core: { run: catch2, needs: ['release'] },
+  package: { run: vitest, needs: ['release', 'wasm'] },
+  parity: { run: vitest, needs: ['release', 'wasm'] },
+  cli: { run: vitest, needs: ['release'] },
+  wasm: { run: vitest, needs: ['wasm'] },
+  io: { run: unittest, needs: ['release'] },
+  types: { run: typescript, needs: [] },
+  structure: { run: vitest, needs: [] },
 };
 
 const chosen = process.argv.slice(2);
@@ -25,37 +28,58 @@ if (unknown.length > 0) {
   console.error(`No suite named ${unknown.join(', ')}. Suites: ${Object.keys(suites).join(' ')}`);
   process.exit(2);
 }
+const names = Object.keys(suites).filter((name) => chosen.length === 0 || chosen.includes(name));
 
 const results = join(root, 'build', 'test-results');
 rmSync(results, { recursive: true, force: true });
 mkdirSync(results, { recursive: true });
 
 const rows = [];
-let passed = 0;
-let failed = 0;
-function add(name, count, seconds) {
-  rows.push({ name, ...count, seconds });
-  passed += count.passed;
-  failed += count.failed;
+const since = (start) => (Date.now() - start) / 1000;
+
+// One thing at a time leaves cores idle: links, the last sources of a build, a test that waits for the browser. So two are
+// done at a time, with half of the cores for each.
+const lanes = Math.min(2, availableParallelism());
+const jobs = Math.ceil(availableParallelism() / lanes);
+
+async function buildPreset(preset) {
+  const start = Date.now();
+  await build(preset, { jobs });
+  console.log(`Built ${preset} in ${since(start).toFixed(1)} s`);
+}
+
+/** What a suite prints is shown when it has ended, so that two at a time can be read. */
+async function runSuite(name) {
+  const start = Date.now();
+  const log = join(results, `${name}.log`);
+  const to = openSync(log, 'w');
+  console.log(`Running ${name}; what it prints goes to build/test-results/${name}.log first`);
+  const { count, note } = await suites[name].run(name, { folder: results, to, jobs });
+  closeSync(to);
+  console.log(`\n=== ${name}\n${readFileSync(log, 'utf8')}`);
+  // A runner that fails without a failed test (a crash, a file that does not load) is a failure too.
+  if (count.passed + count.failed === 0) count.failed = 1;
+  if (note) console.error(`${name}: ${note}`);
+  rows.push({ name, ...count, seconds: since(start) });
 }
 
 try {
   setup('test');
-  build('release');
-  build('wasm');
-  for (const name of chosen.length > 0 ? chosen : Object.keys(suites)) {
-    console.log(`\n=== ${name}`);
-    const start = Date.now();
-    const { count, note } = await suites[name](name, results);
-    // A runner that fails without a failed test (a crash, a file that does not load) is a failure too.
-    if (count.passed + count.failed === 0) count.failed = 1;
-    if (note) console.error(`${name}: ${note}`);
-    add(name, count, (Date.now() - start) / 1000);
-  }
+  const needed = new Set(names.flatMap((name) => suites[name].needs));
+  const builds = ['release', 'wasm'].filter((preset) => needed.has(preset));
+  const tasks = [
+    ...builds.map((preset) => ({ name: preset, needs: [], run: () => buildPreset(preset) })),
+    ...names.map((name) => ({ name, needs: suites[name].needs, run: () => runSuite(name) })),
+  ];
+  await inLanes(tasks, lanes, (name, error) => {
+    if (error !== null && !(error instanceof Failure)) throw error;
+    console.error(error === null ? `${name}: not run, since what it needs has failed` : `\n${error.message}`);
+    rows.push({ name, passed: 0, failed: 1, seconds: 0 });
+  });
 } catch (error) {
   if (!(error instanceof Failure)) throw error;
   console.error(`\n${error.message}`);
-  add('build', { passed: 0, failed: 1 }, 0);
+  rows.push({ name: 'setup', passed: 0, failed: 1, seconds: 0 });
 }
 
 console.log('\nsuite        passed  failed seconds');
@@ -63,7 +87,8 @@ for (const { name, passed, failed, seconds } of rows) {
   const numbers = [passed, failed, seconds.toFixed(1)].map((number) => String(number).padStart(8));
   console.log(`${name.padEnd(11)}${numbers.join('')}`);
 }
-const summary = `${passed} passed, ${failed} failed`;
+const sum = (key) => rows.reduce((total, row) => total + row[key], 0);
+const summary = `${sum('passed')} passed, ${sum('failed')} failed`;
 writeFileSync(join(results, 'summary.txt'), `${summary}\n`);
 console.log(summary);
-process.exit(failed > 0 ? 1 : 0);
+process.exit(sum('failed') > 0 ? 1 : 0);

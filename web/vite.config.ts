@@ -94,11 +94,11 @@ export default defineConfig({
           includeDependenciesRecursively: false,
           groups: [
             { name: 'three', test: /node_modules[\\/]three/ },
-            { name: 'drawing', test: /src[\\/]viewport[\\/](?!palette)|stage[\\/]pointing|inside[\\/](anatomy|facets|irregular_edges|chords|relief)/ },
+            { name: 'drawing', test: /src[\\/]viewport[\\/](?!palette)|stage[\\/]pointing|inside[\\/](anatomy|facets|irregular_edges|chords|relief|measures|neighbours)/ },
             { name: 'sketching', test: /src[\\/]sketch[\\/]|app[\\/](sketching|following)|style[\\/](sketch|following)/ },
             { name: 'numbers', test: /panels[\\/](indicators\.|histogram|statistics)|data[\\/]published/ },
             { name: 'extras', test: /src[\\/]export[\\/]|app[\\/](saving|compare\.|brightness|camera_picture)|panels[\\/](help|embed_dialog|look_inside\.)/ },
-            { name: 'common', test: /wasm[\\/]events|inside[\\/](look_inside|neighbours)|state[\\/]|ui[\\/]dom|replay[\\/]caption/ },
+            { name: 'common', test: /wasm[\\/]events|inside[\\/]look_inside|state[\\/]|ui[\\/]dom|replay[\\/]caption/ },
           ],
         },
       },

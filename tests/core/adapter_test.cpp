@@ -7,6 +7,8 @@
 #include "meshes.h"
 #include "pillowmesh/mesh/validate.h"
 
+namespace adapter_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -331,3 +333,5 @@ TEST_CASE("hexahedra are refined by the same loop: valid after every step, on th
     for (const auto& [group, size] : before) CHECK(after.at(group) == Approx(size));
   }
 }
+
+}  // namespace adapter_test

@@ -5,6 +5,8 @@
 #include "../catch.h"
 #include "pillowmesh/metric/gallery.h"
 
+namespace background_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -92,3 +94,5 @@ TEST_CASE("sizes stay positive where the metric jumps, and points outside of the
   }
   CHECK(background.at(Point<2>(7, 0.5)).a == background.at(Point<2>(1, 0.5)).a);
 }
+
+}  // namespace background_test

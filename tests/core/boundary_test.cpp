@@ -7,6 +7,8 @@
 #include "meshes.h"
 #include "pillowmesh/mesh/validate.h"
 
+namespace boundary_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -144,3 +146,5 @@ TEST_CASE("the pieces of the boundary's geometry are linked within their patch, 
       }
   }
 }
+
+}  // namespace boundary_test

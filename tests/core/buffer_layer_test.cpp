@@ -5,6 +5,8 @@
 #include "meshes.h"
 #include "pillowmesh/mesh/validate.h"
 
+namespace buffer_layer_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -110,3 +112,5 @@ TEST_CASE("random layers on hex meshes stay valid and keep the Euler number") {
     CHECK(insert_at_random(mesh, 20, 25, 6, true) >= 0.95);
   }
 }
+
+}  // namespace buffer_layer_test

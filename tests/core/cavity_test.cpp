@@ -16,6 +16,8 @@
 #include "pillowmesh/reconnect/open.h"
 #include "pillowmesh/reconnect/rotate.h"
 
+namespace cavity_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -251,3 +253,5 @@ TEST_CASE("a chord split on a curved boundary puts its new vertices on the curve
     CHECK(checks::distance_from_geometry(split) < 1e-12);
   }
 }
+
+}  // namespace cavity_test

@@ -3,6 +3,8 @@
 #include "../catch.h"
 #include "meshes.h"
 
+namespace chains_test {
+
 using namespace pillowmesh;
 
 TEST_CASE("a curve is followed from corner to corner, whatever the directions of its pieces") {
@@ -39,3 +41,5 @@ TEST_CASE("every boundary edge is in one chain, end to end; round boundaries are
   CHECK(chains[0].closed);
   CHECK(chains[1].closed);
 }
+
+}  // namespace chains_test

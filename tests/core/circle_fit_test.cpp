@@ -5,6 +5,8 @@
 
 #include "../catch.h"
 
+namespace circle_fit_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -77,3 +79,5 @@ TEST_CASE("what only looks like a circle is none") {
   for (int i = 0; i < 16; ++i) shaken.push_back(on_circle({0, 0}, i % 2 ? 1 : 1.00001, 0.39269908169872 * i));
   CHECK(find_circles(shaken, chain_of(16, true)).empty());
 }
+
+}  // namespace circle_fit_test

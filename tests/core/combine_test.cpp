@@ -7,6 +7,8 @@
 #include "pillowmesh/metric/spectrum.h"
 #include "pillowmesh/metric/volume.h"
 
+namespace combine_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -75,3 +77,5 @@ TEST_CASE("what is no metric, and operations that contradict each other, are ref
   CHECK(contains(set_operation(operations, "max-anisotropy", "0.5").message, "from 1"));
   CHECK(contains(set_operation(operations, "target-cells", "many").message, "'many'"));
 }
+
+}  // namespace combine_test

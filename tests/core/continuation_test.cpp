@@ -3,6 +3,8 @@
 #include "../catch.h"
 #include "pillowmesh/mesh/primitives.h"
 
+namespace continuation_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -44,3 +46,5 @@ TEST_CASE("growth is that per length where sizes grow along their direction, and
   // A kink between two vertices of the mesh, edges of 0.2, is seen.
   CHECK(growth_per_length(cube(), formula("h = 0.02 + 0.6*abs(x - 0.31)")) == Approx(0.6).epsilon(0.03));
 }
+
+}  // namespace continuation_test

@@ -7,6 +7,8 @@
 #include "pillowmesh/metric/expression.h"
 #include "pillowmesh/metric/program.h"
 
+namespace derivative_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -70,3 +72,5 @@ TEST_CASE("what does not depend on a coordinate has the derivative zero, whateve
   Formula formula = *parse_formula("f = x + log(y - y)", 2);
   CHECK(value(formula.graph, differentiate(formula.graph, formula.find("f")->value, 0), 0.5, 0.5) == 1.0);
 }
+
+}  // namespace derivative_test

@@ -5,6 +5,8 @@
 #include "meshes.h"
 #include "pillowmesh/mesh/validate.h"
 
+namespace dice_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -86,3 +88,5 @@ TEST_CASE("dicing by one changes nothing") {
   REQUIRE(dice(diced, 1).ok());
   CHECK(corpus::identical(mesh, diced));
 }
+
+}  // namespace dice_test

@@ -9,6 +9,8 @@
 #include "pillowmesh/metric/nodal.h"
 #include "pillowmesh/metric/spectrum.h"
 
+namespace discrete_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -167,3 +169,5 @@ TEST_CASE("a background without volume, or with wrong numbers, is refused") {
   CHECK(Made::make(points, {{0, 1, 3}}, {{}, {}, {}}).status().message.find("vertex 3 of 3") != std::string::npos);
   CHECK(Made::make(points, {{0, 1, 2}}, {{}, {}}).status().message.find("2 tensors") != std::string::npos);
 }
+
+}  // namespace discrete_test

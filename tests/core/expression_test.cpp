@@ -9,6 +9,8 @@
 #include "../catch.h"
 #include "pillowmesh/metric/program.h"
 
+namespace expression_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -200,3 +202,5 @@ TEST_CASE("a formula that keeps too many values alive is refused") {
   for (const Formula::Assignment& a : formula->assignments) outputs.push_back(a.value);
   CHECK_FALSE(Program::compile(formula->graph, outputs));
 }
+
+}  // namespace expression_test

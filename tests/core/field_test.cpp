@@ -8,6 +8,8 @@
 
 #include "../catch.h"
 
+namespace field_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -166,3 +168,5 @@ TEST_CASE("a floor on sizes keeps the directions and gives the root of the sum o
   // A floor is a size: it is scaled with the others.
   CHECK(field<2>("h = 3").floored(4).scaled(2).evaluate({0, 0}).m[0] == Approx(0.01));
 }
+
+}  // namespace field_test

@@ -13,6 +13,8 @@
 #include "pillowmesh/mesh/validate.h"
 #include "pillowmesh/quality/report.h"
 
+namespace frozen_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -205,3 +207,5 @@ TEST_CASE("a physical point of a Gmsh file stays where it is, also inside") {
   check_kept(before, after);
   CHECK(after.cell_count() > 100);
 }
+
+}  // namespace frozen_test

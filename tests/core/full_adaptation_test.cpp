@@ -9,6 +9,8 @@
 #include "pillowmesh/quality/report.h"
 #include "shared_data.h"
 
+namespace full_adaptation_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -215,3 +217,5 @@ TEST_CASE("meshes of others are adapted in full to a boundary layer: valid, grou
     for (const auto& [group, length] : before) CHECK(after.at(group) == Approx(length).epsilon(0.02));  // chords of the hole's polygon
   }
 }
+
+}  // namespace full_adaptation_test

@@ -10,6 +10,8 @@
 #include "pillowmesh/metric/field.h"
 #include "pillowmesh/metric/volume.h"
 
+namespace gallery_test {
+
 using namespace pillowmesh;
 
 TEST_CASE("every case has a mesh on which its metric can be used") {
@@ -127,3 +129,5 @@ TEST_CASE("the ideal number of hexahedra of the cases is that of their formulas"
   CHECK(measured("polar-1") == Approx(1.04 * polar(false)).epsilon(0.04));
   CHECK(measured("polar-2") == Approx(1.04 * polar(true)).epsilon(0.04));
 }
+
+}  // namespace gallery_test

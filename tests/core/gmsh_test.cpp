@@ -4,6 +4,8 @@
 #include "io_meshes.h"
 #include "pillowmesh/mesh/validate.h"
 
+namespace gmsh_test {
+
 using namespace pillowmesh;
 using namespace io_test;
 
@@ -197,3 +199,5 @@ TEST_CASE("Every element of a written Gmsh file has a physical group, as meshio 
   CHECK(lacks(text, {"\n1 3 2 1 1 "}) == "");      // number, quad, two tags: physical 1, entity 1
   CHECK(lacks(text, {"$Elements\n180\n"}) == "");  // the boundary has no groups: it is left out
 }
+
+}  // namespace gmsh_test

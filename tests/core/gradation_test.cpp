@@ -8,6 +8,8 @@
 #include "pillowmesh/metric/intersection.h"
 #include "pillowmesh/metric/spectrum.h"
 
+namespace gradation_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -90,3 +92,5 @@ TEST_CASE("a stretched pattern stays as stretched as it was") {
   const auto& behind = m.tensors[32 * 65 + 34];  // (34/64, 1/2)
   CHECK(std::sqrt(behind.m[2] / behind.m[0]) > 10.0);
 }
+
+}  // namespace gradation_test

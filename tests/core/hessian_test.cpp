@@ -6,6 +6,8 @@
 #include "../catch.h"
 #include "pillowmesh/metric/spectrum.h"
 
+namespace hessian_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -129,3 +131,5 @@ TEST_CASE("the sampled metric of a shock is thin across it and long along it") {
   CHECK(std::sqrt(s.value[1] / s.value[0]) > 5.0);
   CHECK(metric->points.size() < 100'000);
 }
+
+}  // namespace hessian_test

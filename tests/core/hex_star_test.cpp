@@ -4,6 +4,8 @@
 #include "meshes.h"
 #include "pillowmesh/mesh/jacobian.h"
 
+namespace hex_star_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -96,3 +98,5 @@ TEST_CASE("a star knows the smallest scaled Jacobian of the corners that move") 
   CHECK(star.below(lowest + 1e-9));
   CHECK_FALSE(star.below(lowest - 1e-9));
 }
+
+}  // namespace hex_star_test

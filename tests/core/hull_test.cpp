@@ -5,6 +5,8 @@
 #include "../catch.h"
 #include "meshes.h"
 
+namespace hull_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -96,3 +98,5 @@ TEST_CASE("a facet of the domain's boundary is hull only where it is named") {
   CHECK(hull.is_hull(1, bottom));
   CHECK_FALSE(hull.is_hull(0, bottom));
 }
+
+}  // namespace hull_test

@@ -7,6 +7,8 @@
 #include "pillowmesh/metric/portrait.h"
 #include "pillowmesh/metric/spectrum.h"
 
+namespace image_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -82,3 +84,5 @@ TEST_CASE("images in which there is nothing to follow are refused with what to d
   broken.values.pop_back();
   CHECK(contains(refusal(broken), "10 x 10 values, not 99"));
 }
+
+}  // namespace image_test

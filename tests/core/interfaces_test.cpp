@@ -4,6 +4,8 @@
 #include "pillowmesh/mesh/boundary.h"
 #include "pillowmesh/mesh/primitives.h"
 
+namespace interfaces_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -30,3 +32,5 @@ TEST_CASE("facets between regions are counted unless they are frozen") {
   CHECK(interface_of<3>({4, 3, 2}, true, {"2"}) == 0);
   CHECK(free_interface_facets(make_grid<2>({4, 3}, {0.0, 0.0}, {1.0, 1.0})) == 0);
 }
+
+}  // namespace interfaces_test

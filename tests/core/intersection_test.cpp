@@ -6,6 +6,8 @@
 #include "../catch.h"
 #include "pillowmesh/metric/spectrum.h"
 
+namespace intersection_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -87,3 +89,5 @@ TEST_CASE("bounds cut sizes and anisotropy and keep directions") {
   CHECK(sizes({.anisotropy = 50.0})[1] == Approx(0.5));
   CHECK(sizes({.anisotropy = 50.0})[0] == Approx(0.01));
 }
+
+}  // namespace intersection_test

@@ -11,6 +11,8 @@
 #include "pillowmesh/mesh/number.h"
 #include "pillowmesh/mesh/validate.h"
 
+namespace files_test {
+
 using namespace pillowmesh;
 using namespace io_test;
 
@@ -212,3 +214,5 @@ TEST_CASE("A failed write leaves neither a half file nor a temporary one, and re
   CHECK(lacks(read_mesh_file((folder / "taken.vtu").string()).status().message, {"cannot be read"}) == "");
   fs::remove_all(folder);
 }
+
+}  // namespace files_test

@@ -8,6 +8,8 @@
 #include "pillowmesh/mesh/primitives.h"
 #include "pillowmesh/quality/valence.h"
 
+namespace jacobian_test {
+
 using namespace pillowmesh;
 
 TEST_CASE("the scaled Jacobian of a rectangle or box is one") {
@@ -51,3 +53,5 @@ TEST_CASE("the lowest Jacobian on the lattice is that of its 27 points one by on
     CHECK(min_lattice_jacobian(position) <= min_corner_jacobian(mesh, c));
   }
 }
+
+}  // namespace jacobian_test

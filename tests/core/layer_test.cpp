@@ -5,6 +5,8 @@
 #include "pillowmesh/refine/balance.h"
 #include "pillowmesh/refine/tag_inheritance.h"
 
+namespace layer_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -265,3 +267,5 @@ TEST_CASE("both copies of a hull edge inherit its tag, but the shrunk copy of a 
     for (int e = 0; e < 4; ++e)
       for_each_cell_at_edge(mesh, {c, e}, [&](CellId n, int f) { CHECK(tags.has(n, f) == tags.has(c, e)); });
 }
+
+}  // namespace layer_test

@@ -8,6 +8,8 @@
 #include "pillowmesh/mesh/topology.h"
 #include "pillowmesh/metric/gallery.h"
 
+namespace length_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -134,3 +136,5 @@ TEST_CASE("the default panel follows the size of the domain") {
   CHECK(default_panel<2>(points) == Approx(5.0 / 256));
   CHECK(default_panel<2>({}) == 0.0);
 }
+
+}  // namespace length_test

@@ -3,6 +3,8 @@
 #include "../catch.h"
 #include "io_meshes.h"
 
+namespace medit_test {
+
 using namespace pillowmesh;
 using namespace io_test;
 
@@ -212,3 +214,5 @@ TEST_CASE("A wrong binary Medit file is refused with its byte and the reason") {
   CHECK(lacks(refusal("a.meshb", good.substr(0, 4) + '\7' + good.substr(5)), {"version 7"}) == "");
   CHECK(lacks(refusal("a.meshb", good.substr(0, good.size() / 2)), {"byte", "truncated"}) == "");
 }
+
+}  // namespace medit_test

@@ -9,6 +9,8 @@
 #include "pillowmesh/mesh/primitives.h"
 #include "simplices.h"
 
+namespace nodal_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -80,3 +82,5 @@ TEST_CASE("tensors that are no metric are named by their vertex") {
   tensors[2] = {{1e-240, 0.0, 1.0}};
   CHECK(check_tensors<2>(tensors, 4).message.find("1e100") != std::string::npos);
 }
+
+}  // namespace nodal_test

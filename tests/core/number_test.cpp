@@ -10,6 +10,8 @@
 
 #include "../catch.h"
 
+namespace number_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -106,3 +108,5 @@ TEST_CASE("written numbers read back exactly") {
   CHECK(number_text(-2.5) == "-2.5");
   CHECK(number_text(std::numeric_limits<double>::quiet_NaN()) == "nan");
 }
+
+}  // namespace number_test

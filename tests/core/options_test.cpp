@@ -2,6 +2,8 @@
 
 #include "../catch.h"
 
+namespace options_test {
+
 using namespace pillowmesh;
 
 TEST_CASE("by default quads are adapted in full, and layers are the paper's") {
@@ -94,3 +96,5 @@ TEST_CASE("an option of the paper's method chooses it, unless full adaptation is
     CHECK_FALSE(full_adaptation(options));
   }
 }
+
+}  // namespace options_test

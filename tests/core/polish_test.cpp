@@ -6,6 +6,8 @@
 #include "pillowmesh/mesh/validate.h"
 #include "pillowmesh/quality/report.h"
 
+namespace polish_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -102,3 +104,5 @@ TEST_CASE("no scaled Jacobian falls below its floor") {
   mesh = layered();
   CHECK(polish_shapes(mesh, field("h = 1"), {.shape = 0.9, .quality_guard = 1.0, .most_poor = 1.0}).moved == 0);
 }
+
+}  // namespace polish_test

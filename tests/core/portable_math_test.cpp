@@ -8,6 +8,8 @@
 
 #include "../catch.h"
 
+namespace portable_math_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -90,3 +92,5 @@ TEST_CASE("portable functions treat the ends of their domains as IEEE 754 wants"
   CHECK(portable::atan2(0.0, 0.0) == 0.0);
   CHECK(portable::floor(-0.5) == -1.0);
 }
+
+}  // namespace portable_math_test

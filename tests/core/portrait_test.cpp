@@ -4,6 +4,8 @@
 
 #include "../catch.h"
 
+namespace portrait_test {
+
 using namespace pillowmesh;
 
 TEST_CASE("the portrait is a light face in dark hair, beard and coat, the same at every size") {
@@ -23,3 +25,5 @@ TEST_CASE("the portrait is a light face in dark hair, beard and coat, the same a
     CHECK(at(0.169, 0.117) < 0.2F);
   }
 }
+
+}  // namespace portrait_test

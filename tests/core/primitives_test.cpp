@@ -11,6 +11,8 @@
 #include "pillowmesh/mesh/validate.h"
 #include "pillowmesh/quality/jacobian.h"
 
+namespace primitives_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -240,3 +242,5 @@ TEST_CASE("a mesh survives the way out to a file's view and back") {
   CHECK(again->patch_groups.size() == 6);
   CHECK(again->support == box.support);
 }
+
+}  // namespace primitives_test

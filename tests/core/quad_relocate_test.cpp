@@ -9,6 +9,8 @@
 #include "pillowmesh/metric/length.h"
 #include "pillowmesh/smooth/quad_descent.h"
 
+namespace quad_relocate_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -231,3 +233,5 @@ TEST_CASE("descent spreads rows over the whole mesh where sweeps hardly begin to
   };
   CHECK(relaxed(0, 100) < 0.2 * relaxed(100, 0));
 }
+
+}  // namespace quad_relocate_test

@@ -5,6 +5,8 @@
 #include "pillowmesh/mesh/slide.h"
 #include "pillowmesh/mesh/validate.h"
 
+namespace relocate_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -163,3 +165,5 @@ TEST_CASE("one vertex of huge energy does not stop the smoothing of the others")
       for (int d = 0; d < 2; ++d) worst = std::max(worst, std::abs(mesh.points[v][d] - std::round(mesh.points[v][d])));
   CHECK(worst < 0.1);
 }
+
+}  // namespace relocate_test

@@ -8,6 +8,8 @@
 #include "pillowmesh/mesh/primitives.h"
 #include "pillowmesh/metric/gallery.h"
 
+namespace report_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -142,3 +144,5 @@ TEST_CASE("the process knows its peak memory") {
   CHECK(peak_memory_bytes() >= 0);
 #endif
 }
+
+}  // namespace report_test

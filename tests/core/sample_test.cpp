@@ -9,6 +9,8 @@
 #include "pillowmesh/metric/spectrum.h"
 #include "simplices.h"
 
+namespace sample_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -75,3 +77,5 @@ TEST_CASE("sampling a jump or a point of zero size ends") {
     CHECK(sample<2>(all, {-1.0, -1.0}, {1.0, 1.0}, options).points.size() < 60'000);
   }
 }
+
+}  // namespace sample_test

@@ -8,6 +8,8 @@
 #include "pillowmesh/metric/nodal.h"
 #include "pillowmesh/quality/report.h"
 
+namespace sampled_metric_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -75,3 +77,5 @@ TEST_CASE("one fully adapted mesh has the same statistics in a metric and in a b
   const Mesh<2> mesh = adapted<2>("iso2d", background, Method::full);
   check_near(measure(mesh, background), measure(mesh, formula), 0.03);
 }
+
+}  // namespace sampled_metric_test

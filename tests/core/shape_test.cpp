@@ -10,6 +10,8 @@
 #include "pillowmesh/metric/gallery.h"
 #include "pillowmesh/quality/statistics.h"
 
+namespace shape_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -130,3 +132,5 @@ TEST_CASE("the paper's initial shapes are reproduced") {
   const Case& iso = *find_case("iso2d");
   check_row(shapes(std::get<Mesh<2>>(*parse_primitive(iso.mesh)), iso.formula).integral, .535, .868, 1.02, .147, 2e-3);
 }
+
+}  // namespace shape_test

@@ -12,6 +12,8 @@
 #include "pillowmesh/quality/jacobian.h"
 #include "pillowmesh/quality/report.h"
 
+namespace shared_data_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -181,3 +183,5 @@ TEST_CASE("a hard mesh never gets worse than it came") {
       CHECK(adapt(initial, band, smooth).least_jacobian >= least_scaled_jacobian(initial) * (1 - 1e-12));
     }
 }
+
+}  // namespace shared_data_test

@@ -9,6 +9,8 @@
 #include "pillowmesh/refine/buffer_layer.h"
 #include "shared_data.h"
 
+namespace shrink_set_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -195,3 +197,5 @@ TEST_CASE("of 500 random shrink sets on each mesh 95 of 100 give a valid mesh", 
       CHECK(tally.share() >= 0.95);
     }
 }
+
+}  // namespace shrink_set_test

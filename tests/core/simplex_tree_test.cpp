@@ -6,6 +6,8 @@
 #include "../catch.h"
 #include "pillowmesh/metric/nodal.h"
 
+namespace simplex_tree_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -77,3 +79,5 @@ TEST_CASE("the tree finds places in a mesh whose sizes vary by orders of magnitu
           1e-12 * x + 1e-16);
   }
 }
+
+}  // namespace simplex_tree_test

@@ -7,7 +7,9 @@
 
 #include "pillowmesh/metric/nodal.h"
 
-namespace pillowmesh::checks {
+namespace checks {
+
+using namespace pillowmesh;
 
 /// Every facet belongs to two simplices, or to one when it lies on a side of the box from (low, ...) to (high, ...).
 template <int Dim>
@@ -35,4 +37,4 @@ bool conforming(const NodalMetric<Dim>& m, double low = 0.0, double high = 1.0) 
   return !facets.empty();
 }
 
-}  // namespace pillowmesh::checks
+}  // namespace checks

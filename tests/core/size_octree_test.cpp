@@ -7,6 +7,8 @@
 #include "pillowmesh/metric/nodal.h"
 #include "pillowmesh/metric/spectrum.h"
 
+namespace size_octree_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -122,3 +124,5 @@ TEST_CASE("a background in space is approximated, a formula and a scaled field r
   CHECK(exact.approximated().evaluate(points[0]) == exact.evaluate(points[0]));
   CHECK(exact.approximated().accuracy() == 0.0);
 }
+
+}  // namespace size_octree_test

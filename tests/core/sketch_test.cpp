@@ -6,6 +6,8 @@
 #include "../catch.h"
 #include "pillowmesh/metric/spectrum.h"
 
+namespace sketch_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -63,3 +65,5 @@ TEST_CASE("nothing drawn is the paper alone; impossible dabs are named") {
   CHECK(refused({{0.5, 0.5, 0.1, 0.1, 0.0, 0.5}}).find("dab 1") != std::string::npos);
   CHECK(refused({}, 0.0).find("positive") != std::string::npos);
 }
+
+}  // namespace sketch_test

@@ -4,6 +4,8 @@
 #include "checks.h"
 #include "meshes.h"
 
+namespace slide_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -93,3 +95,5 @@ TEST_CASE("a copy that leaves a corner finds the side it is to slide on") {
   CHECK(anchor_on(mesh, {2, kNone}, corner, Point<2>(1, 1)) == kNone);
   CHECK(anchor_on(mesh, left, on_left, Point<2>(0, 1.2)) == mesh.anchor[on_left]);
 }
+
+}  // namespace slide_test

@@ -12,6 +12,8 @@
 #include "pillowmesh/mesh/foot.h"
 #include "pillowmesh/mesh/validate.h"
 
+namespace smooth_geometry_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -268,3 +270,5 @@ TEST_CASE("hexahedra of a cylinder are refined onto its wall, and its ends stay 
   }
   CHECK(wall > 100);
 }
+
+}  // namespace smooth_geometry_test

@@ -3,6 +3,8 @@
 #include "../catch.h"
 #include "pillowmesh/io/background_file.h"
 
+namespace sol_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -109,3 +111,5 @@ TEST_CASE("backgrounds may be triangles, tetrahedra, quads and hexahedra") {
   const auto none = read_background_text("MeshVersionFormatted 2\nDimension 2\nVertices\n1\n0 0 0\nEnd\n");
   CHECK(contains(none.status().message, "it is no background"));
 }
+
+}  // namespace sol_test

@@ -6,6 +6,8 @@
 
 #include "../catch.h"
 
+namespace spectrum_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -85,3 +87,5 @@ TEST_CASE("only finite tensors with positive eigenvalues are positive definite")
   CHECK_FALSE(positive_definite(SymTensor<2>{}));
   CHECK_FALSE(positive_definite(SymTensor<2>{{std::numeric_limits<double>::infinity(), 0.0, 1.0}}));
 }
+
+}  // namespace spectrum_test

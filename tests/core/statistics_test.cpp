@@ -6,6 +6,8 @@
 
 #include "../catch.h"
 
+namespace statistics_test {
+
 using namespace pillowmesh;
 
 TEST_CASE("cv is the population standard deviation over the mean") {
@@ -33,3 +35,5 @@ TEST_CASE("a value that is not a number is not passed over") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(std::isnan(statistics(std::vector<double>{1, nan, 2}).mean));
 }
+
+}  // namespace statistics_test

@@ -3,6 +3,8 @@
 #include "../catch.h"
 #include "meshes.h"
 
+namespace tag_inheritance_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -126,3 +128,5 @@ TEST_CASE("tags agree in all cells at an edge after random layers") {
       }
     }
 }
+
+}  // namespace tag_inheritance_test

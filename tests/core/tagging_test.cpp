@@ -5,6 +5,8 @@
 #include "meshes.h"
 #include "pillowmesh/refine/balance.h"
 
+namespace tagging_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -90,3 +92,5 @@ TEST_CASE("balancing may reach cells that had no tags: they are collected") {
   tagging.collect_tagged_cells(mesh, tags, cells);
   CHECK(cells == std::vector<CellId>{0, 1});
 }
+
+}  // namespace tagging_test

@@ -4,6 +4,8 @@
 
 #include "../catch.h"
 
+namespace tensor_test {
+
 using namespace pillowmesh;
 
 TEST_CASE("packing puts the upper triangle by columns") {
@@ -47,3 +49,5 @@ TEST_CASE("tensors add and scale entry by entry") {
   const SymTensor<2> b{{10, 20, 30}};
   CHECK(a + 2.0 * b == SymTensor<2>{{21, 42, 63}});
 }
+
+}  // namespace tensor_test

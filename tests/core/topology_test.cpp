@@ -6,6 +6,8 @@
 #include "checks.h"
 #include "meshes.h"
 
+namespace topology_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -126,3 +128,5 @@ TEST_CASE("the corners of a facet go round its outward normal with facet_sign") 
     CHECK(facet_sign<3>(f) * triple(a, b, outward) > 0);
   }
 }
+
+}  // namespace topology_test

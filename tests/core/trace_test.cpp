@@ -6,6 +6,8 @@
 #include "meshes.h"
 #include "pillowmesh/adapt/adapter.h"
 
+namespace trace_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -154,3 +156,5 @@ TEST_CASE("every kind of event has a name of its own") {
   CHECK(names.size() == 7);
   CHECK(names.count("") == 0);
 }
+
+}  // namespace trace_test

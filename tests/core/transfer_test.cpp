@@ -14,6 +14,8 @@
 #include "pillowmesh/io/sink.h"
 #include "pillowmesh/io/solution_file.h"
 
+namespace transfer_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -218,3 +220,5 @@ TEST_CASE("arrays of a file that another program wrote are found: attributes, an
   CHECK(s.fields[1].components == 3);
   CHECK(s.fields[1].values.size() == 12);
 }
+
+}  // namespace transfer_test

@@ -8,6 +8,8 @@
 #include "meshes.h"
 #include "pillowmesh/mesh/validate.h"
 
+namespace untangle_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -111,3 +113,5 @@ TEST_CASE("a patch has every cell at its free vertices once, each in the form fr
   for (std::size_t i = 0; i < patch.cells.size(); ++i)
     for (int k = 0; k < 8; ++k) CHECK(patch.shapes[i][k] == cubes.points[cubes.cells[patch.cells[i]][k]]);
 }
+
+}  // namespace untangle_test

@@ -6,6 +6,8 @@
 #include "pillowmesh/mesh/boundary.h"
 #include "pillowmesh/mesh/primitives.h"
 
+namespace valence_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -64,3 +66,5 @@ TEST_CASE("in 3D an irregular edge marks its inner ends") {
   REQUIRE(mesh);
   CHECK(count(irregular_vertices(*mesh)) == 2);
 }
+
+}  // namespace valence_test

@@ -8,6 +8,8 @@
 #include "pillowmesh/mesh/primitives.h"
 #include "pillowmesh/mesh/topology.h"
 
+namespace validate_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -294,3 +296,5 @@ TEST_CASE("a long list of defects is told by the first cells and the number") {
   CHECK(says(text, "; 19 more defects, in hexes 1, 2, 3, 4, 5, 6, 7, 8, ..."));
   CHECK(says(describe<3>(find_cell_defects(mesh, 5), 5), "at least 4 more defects"));
 }
+
+}  // namespace validate_test

@@ -7,6 +7,8 @@
 #include "meshes.h"
 #include "pillowmesh/mesh/slide.h"
 
+namespace vertex_copies_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -128,3 +130,5 @@ TEST_CASE("two hexes that share only an edge are one component where they are jo
   CHECK(shared == 2);
   CHECK(p.plan.kept_inside.empty());
 }
+
+}  // namespace vertex_copies_test

@@ -6,6 +6,8 @@
 #include "pillowmesh/mesh/primitives.h"
 #include "pillowmesh/metric/gallery.h"
 
+namespace volume_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -84,3 +86,5 @@ TEST_CASE("the complexity of a case is the ideal number of cells of method.md") 
   CHECK(of("linear3d", 1e-4) == Approx(1250.0).epsilon(2e-4));
   CHECK(of("cube-linear", 1e-3) == Approx(4651.7).epsilon(1e-3));
 }
+
+}  // namespace volume_test

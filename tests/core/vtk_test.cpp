@@ -4,6 +4,8 @@
 #include "io_meshes.h"
 #include "pillowmesh/io/codec.h"
 
+namespace vtk_test {
+
 using namespace pillowmesh;
 using namespace io_test;
 
@@ -335,3 +337,5 @@ TEST_CASE("Deflate streams of all three kinds expand, and damaged ones are refus
   }
   CHECK_FALSE(inflate_zlib(unhex("79") + fixed.substr(1), 100, out));
 }
+
+}  // namespace vtk_test

@@ -7,6 +7,8 @@
 #include "pillowmesh/mesh/primitives.h"
 #include "pillowmesh/metric/spectrum.h"
 
+namespace walls_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -95,3 +97,5 @@ TEST_CASE("in the metric that a mesh implies its edges are of length 1") {
   CHECK(M(1, 1) == Approx(16.0));
   CHECK(M(2, 2) == Approx(25.0));
 }
+
+}  // namespace walls_test

@@ -11,6 +11,8 @@
 #include "../core/io_meshes.h"
 #include "pillowmesh/mesh/validate.h"
 
+namespace io_fuzz_test {
+
 using namespace pillowmesh;
 using namespace io_test;
 
@@ -162,3 +164,5 @@ TEST_CASE("Readers survive files of one format under the name of another", "[fuz
       CHECK(misbehaviour(wrong.name, *write_mesh(grouped_mesh<2>(), v.name, v.options), accepted) == "");
   CHECK(accepted == 2 * 1 + 4 * 4 + 2 * (2 * 2));  // Medit, Medit binary; Gmsh; VTK and VTU tell their variants apart
 }
+
+}  // namespace io_fuzz_test

@@ -9,6 +9,8 @@
 #include "pillowmesh/metric/gallery.h"
 #include "pillowmesh/quality/report.h"
 
+namespace paper_cases_test {
+
 using namespace pillowmesh;
 
 namespace {
@@ -211,3 +213,5 @@ TEST_CASE("who chooses the continuation keeps the threshold") {
   CHECK(r.edge_length.max > 1.6);
   CHECK(r.cells <= 1100);
 }
+
+}  // namespace paper_cases_test

@@ -1,6 +1,6 @@
 // What stands around the picture: cases by pictures, options of a method, a number of cells, keys, files, messages.
 import { expect, test } from 'vitest';
-import { complaints, eventually, page, part, serving, visit } from './browsing.ts';
+import { complaints, eventually, newPage, page, part, pictureNow, serving, visit } from './browsing.ts';
 
 const fact = (name: string) => page.locator('.facts > div', { hasText: name }).locator('dd');
 const number = async (name: string): Promise<number> => Number((await fact(name).innerText()).replace(/,/g, ''));
@@ -139,4 +139,22 @@ test('a browser that records no films says so', async () => {
   await page.locator('[data-format=webm]').click();
   await expect.poll(() => message().innerText()).toContain('no MediaRecorder');
   expect(await message().innerText()).toContain('.png');
+});
+
+test('cells are coloured also when the numbers were there before the drawing code', async () => {
+  await visit('#case=iso2d&colour=shape&hide=ellipses');
+  const coloured = await pictureNow();
+  await newPage();
+  let letGo: () => void = () => undefined;
+  const numbers = new Promise<void>((resolve) => (letGo = resolve));
+  await page.route(/three-.*\.js/, async (route) => {
+    await numbers;
+    await route.continue();
+  });
+  await page.goto(`${serving.address}#case=iso2d&colour=shape&hide=ellipses`);
+  await expect.poll(() => page.locator('.facts dd').first().innerText(), eventually).toMatch(/\d/);
+  expect(await page.locator('.picture canvas').count()).toBe(0);
+  letGo();
+  await page.locator('.picture canvas').waitFor();
+  await expect.poll(async () => (await pictureNow()).equals(coloured), eventually).toBe(true);
 });

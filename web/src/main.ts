@@ -1,7 +1,9 @@
 import '../style/tokens.css';
 import '../style/layout.css';
 import '../style/controls.css';
+import '../style/forms.css';
 import '../style/stage.css';
+import '../style/picture_tools.css';
 import '../style/panels.css';
 import '../style/inside.css';
 import { App } from './app/app.ts';

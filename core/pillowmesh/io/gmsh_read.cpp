@@ -16,7 +16,7 @@ struct ElementType {
   int vertices;
   std::string_view plural;
 };
-constexpr ElementType kTypes[] = {
+constexpr ElementType kGmshTypes[] = {
     {1, 2, "edges"},
     {2, 3, "triangles"},
     {3, 4, "quads"},
@@ -39,7 +39,7 @@ constexpr ElementType kTypes[] = {
 };
 
 const ElementType* find_type(std::int64_t code) {
-  for (const ElementType& t : kTypes)
+  for (const ElementType& t : kGmshTypes)
     if (t.code == code) return &t;
   return nullptr;
 }

@@ -10,7 +10,7 @@ namespace pillowmesh {
 namespace {
 
 constexpr int kSolAtVertices = 62;  // libmeshb's keyword numbers
-constexpr int kEnd = 54;
+constexpr int kSolEnd = 54;
 
 bool is_binary(std::string_view name) {
   return name.size() >= 5 && (name.ends_with(".solb") || name.ends_with(".SOLB"));
@@ -81,7 +81,7 @@ void read_sections(Source& in, SolFile& sol) {
   while (in.remaining() > 0 && !in.failed()) {
     const std::size_t start = in.position();
     const std::int64_t code = in.integer<std::int32_t>("a keyword");
-    if (code == kEnd) return;
+    if (code == kSolEnd) return;
     const auto next = static_cast<std::int64_t>(in.value<Offset>("a section's end"));
     if (in.failed()) return;
     if (code == 3) {
@@ -151,7 +151,7 @@ std::string write_sol(const SolFile& sol, std::string_view name) {
     sink.raw(static_cast<std::int32_t>(sol.fields.size()));
     for (const SolField& f : sol.fields) sink.raw(static_cast<std::int32_t>(f.kind));
     for_each_value([&](double v, bool) { sink.raw(v); });
-    sink.raw(std::int32_t{kEnd});
+    sink.raw(std::int32_t{kSolEnd});
     sink.raw(std::int64_t{0});
     return sink.take();
   }

@@ -13,7 +13,7 @@ struct VtkType {
   int vertices;  ///< 0: any number
   std::string_view plural;
 };
-constexpr VtkType kTypes[] = {
+constexpr VtkType kVtkTypes[] = {
     {0, 0, "empty cells"}, {1, 1, "points"},          {2, 0, "points"},     {3, 2, "edges"},   {4, 0, "edges"},
     {5, 3, "triangles"},   {6, 0, "triangle strips"}, {7, 0, "polygons"},   {8, 4, "quads"},   {9, 4, "quads"},
     {10, 4, "tetrahedra"}, {11, 8, "hexahedra"},      {12, 8, "hexahedra"}, {13, 6, "prisms"}, {14, 5, "pyramids"},
@@ -59,7 +59,7 @@ FileMesh to_file_mesh(VtkGrid grid, Source& source) {
     const Index group = c < grid.groups.size() ? grid.groups[c] : 0;
     const Index line = c < grid.lines.size() ? grid.lines[c] : 0;
     const VtkType* type = nullptr;
-    for (const VtkType& t : kTypes)
+    for (const VtkType& t : kVtkTypes)
       if (t.code == grid.types[c]) type = &t;
     if (type == nullptr) {
       add_foreign(mesh, "higher-order or unknown cells (VTK type " + std::to_string(grid.types[c]) + ")", line);

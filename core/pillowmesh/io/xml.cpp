@@ -2,7 +2,7 @@
 
 namespace pillowmesh {
 namespace {
-bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+bool is_white(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 }  // namespace
 
 XmlTag next_tag(std::string_view text, std::size_t from) {
@@ -37,7 +37,7 @@ XmlTag next_tag(std::string_view text, std::size_t from) {
       inside.remove_suffix(1);
     }
     std::size_t n = 0;
-    while (n < inside.size() && !is_space(inside[n])) ++n;
+    while (n < inside.size() && !is_white(inside[n])) ++n;
     tag.name = inside.substr(0, n);
     tag.attributes = inside.substr(n);
     return tag;
@@ -48,11 +48,11 @@ std::string_view attribute(const XmlTag& tag, std::string_view name) {
   const std::string_view text = tag.attributes;
   std::size_t i = 0;
   while (i < text.size()) {
-    while (i < text.size() && is_space(text[i])) ++i;
+    while (i < text.size() && is_white(text[i])) ++i;
     const std::size_t key = i;
-    while (i < text.size() && text[i] != '=' && !is_space(text[i])) ++i;
+    while (i < text.size() && text[i] != '=' && !is_white(text[i])) ++i;
     const std::string_view found = text.substr(key, i - key);
-    while (i < text.size() && (is_space(text[i]) || text[i] == '=')) ++i;
+    while (i < text.size() && (is_white(text[i]) || text[i] == '=')) ++i;
     if (i >= text.size() || (text[i] != '"' && text[i] != '\'')) return {};
     const char quote = text[i++];
     const std::size_t end = text.find(quote, i);

@@ -11,7 +11,7 @@ namespace pillowmesh {
 namespace {
 
 /// More digits than this may not fit in 64 bits.
-constexpr int kMostDigits = 19;
+constexpr int kExactDigits = 19;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -50,7 +50,7 @@ std::size_t read_unsigned(std::string_view text, bool fortran, double& value) {
     }
     if (!is_digit(c)) break;
     any = true;
-    if (kept < kMostDigits) {
+    if (kept < kExactDigits) {
       decimal.digits = decimal.digits * 10 + static_cast<std::uint64_t>(c - '0');
       if (decimal.digits != 0) ++kept;
       if (point) --decimal.exponent;

@@ -10,8 +10,8 @@
 namespace pillowmesh {
 namespace {
 
-constexpr int kRoots = 8;  ///< along each side of the box
-constexpr int kDepth = 12;
+constexpr int kOctreeRoots = 8;  ///< along each side of the box
+constexpr int kOctreeDepth = 12;
 
 /// The metric whose sizes are H: (H^2)^-1.
 SymTensor<3> metric_of(const SymTensor<3>& H) {
@@ -54,17 +54,18 @@ SymTensor<3> size_tensor(const SymTensor<3>& M) {
 SizeOctree::SizeOctree(const MetricField<3>& field, const Point<3>& low, const Point<3>& high,
                        const SizeOctreeOptions& options)
     : low_(low) {
-  const Point<3> half = (high - low) / (2 * kRoots);
+  const Point<3> half = (high - low) / (2 * kOctreeRoots);
   for (int d = 0; d < 3; ++d) per_cell_[d] = 0.5 / half[d];
-  nodes_.assign(kRoots * kRoots * kRoots, {kNone});
+  nodes_.assign(kOctreeRoots * kOctreeRoots * kOctreeRoots, {kNone});
   std::vector<Open> open, next;
   for (Index n = 0; n < static_cast<Index>(nodes_.size()); ++n) {
     Point<3> middle;
-    for (int d = 0, rest = n; d < 3; ++d, rest /= kRoots) middle[d] = low[d] + (2 * (rest % kRoots) + 1) * half[d];
+    for (int d = 0, rest = n; d < 3; ++d, rest /= kOctreeRoots)
+      middle[d] = low[d] + (2 * (rest % kOctreeRoots) + 1) * half[d];
     open.push_back({n, middle, half});
   }
   std::size_t divisions = 0;
-  for (int depth = 0; depth < kDepth && !open.empty(); ++depth) {
+  for (int depth = 0; depth < kOctreeDepth && !open.empty(); ++depth) {
     next.clear();
     for (const Open& o : open)
       if (divisions++ < options.divisions) divide(field, o, options.smallest, options.tolerance, next);
@@ -78,9 +79,9 @@ Index SizeOctree::find(const Point<3>& p) const {
   double u[3];
   for (int d = 2; d >= 0; --d) {
     const double f = (p[d] - low_[d]) * per_cell_[d];
-    if (!(f >= 0.0 && f <= kRoots)) return kNone;
-    const int i = std::min(static_cast<int>(f), kRoots - 1);
-    n = n * kRoots + i;
+    if (!(f >= 0.0 && f <= kOctreeRoots)) return kNone;
+    const int i = std::min(static_cast<int>(f), kOctreeRoots - 1);
+    n = n * kOctreeRoots + i;
     u[d] = 2.0 * (f - i) - 1.0;
   }
   while (nodes_[n].child >= 0) {

@@ -1,6 +1,6 @@
 // The page: settings, a stage, the panels around it, and what happens between them.
 import { CoreError } from '../../../wasm/errors.ts';
-import { looksInside, pickedRange } from '../inside/look_inside.ts';
+import { looksInside, pickedRange, withRange } from '../inside/look_inside.ts';
 import { makeHeader, type SaveFormat } from '../panels/header.ts';
 import { makeIndicators } from '../panels/indicators_later.ts';
 import { makeLookInside } from '../panels/look_inside_later.ts';
@@ -8,14 +8,14 @@ import { makeMessages } from '../panels/messages.ts';
 import { makePictureTools } from '../panels/picture_tools.ts';
 import { makeSetup } from '../panels/setup.ts';
 import { makeTransport } from '../panels/transport.ts';
+import { makeStartButton, makeViewSection } from '../panels/view_section.ts';
 import { Stage } from '../stage/stage.ts';
 import { legendOf, summaryOf } from '../stage/words.ts';
 import { decodeSettings, encodeSettings, sameComputation } from '../state/permalink.ts';
 import { lastEvent, type Mark, type MeshChoice, type Pace, type Settings } from '../state/settings.ts';
 import { debounce, h } from '../ui/dom.ts';
-import { icon } from '../ui/icons.ts';
 import { Comparing } from './comparing.ts';
-import { showEmbed, showHelp } from './dialogs.ts';
+import { copyAddress, showEmbed, showHelp } from './dialogs.ts';
 import { acceptDrops } from './drop.ts';
 import { toggleFullScreen } from './full_screen.ts';
 import { History } from './history.ts';
@@ -119,11 +119,7 @@ export class App {
     showEnd: () => void this.stage.seek(lastEvent),
     stop: () => void (this.live.working ? this.live.stop() : this.stage.run.stop()),
   });
-  private readonly start_ = h(
-    'button',
-    { type: 'button', class: 'start', 'aria-label': 'Play', onclick: () => this.stage.run.togglePlay() },
-    icon('play'),
-  );
+  private readonly start_ = makeStartButton(() => this.stage.run.togglePlay());
   private readonly rewriteLink = debounce(250, () => this.writeLink());
 
   mount(root: HTMLElement): void {
@@ -139,19 +135,13 @@ export class App {
         'main',
         {},
         this.setup.element,
-        h(
-          'section',
-          { class: 'view', 'aria-label': 'Picture' },
-          h(
-            'div',
-            { class: 'frame' },
-            this.tools.element,
-            h('div', { class: 'stage' }, picture.host, this.tools.legend, this.pointed, this.start_, problem),
-            this.inside.element,
-          ),
-          this.transport.caption,
-          this.transport.element,
-        ),
+        makeViewSection({
+          tools: this.tools,
+          picture: picture.host,
+          over: [this.pointed, this.start_, problem],
+          inside: this.inside.element,
+          transport: this.transport,
+        }),
         this.indicators.element,
       ),
       this.messages.element,
@@ -310,10 +300,7 @@ export class App {
 
   /** Shows the cells within a range alone. */
   private pick(measure: 'eta' | 'length', range: [number, number] | null): void {
-    const { inside } = this.settings;
-    const share = (value: number): number => (measure === 'length' ? value / (1 + value) : value);
-    const [low, high] = range ? range.map((value) => Math.min(1, Math.max(0, share(value)))) : [0, 1];
-    this.change({ inside: { ...inside, quality: { measure, low, high } } });
+    this.change({ inside: withRange(this.settings.inside, measure, range) });
   }
 
   /** In 3D better cells are hidden, since they would be in the way. */
@@ -323,8 +310,7 @@ export class App {
     const worst = picture.worst('eta');
     if (!worst) return;
     if (player.mesh.dim === 3) {
-      const high = Math.min(1, Math.ceil(20 * worst.value + 1) / 20);
-      this.change({ inside: { ...this.settings.inside, quality: { measure: 'eta', low: 0, high } } });
+      this.change({ inside: withRange(this.settings.inside, 'eta', [0, Math.ceil(20 * worst.value + 1) / 20]) });
       this.inside.setOpen(true);
     }
     picture.pin(worst.cell);
@@ -387,15 +373,7 @@ export class App {
   private async copyLink(): Promise<void> {
     this.stage.player.pause();
     this.writeLink();
-    try {
-      await navigator.clipboard.writeText(location.href);
-      this.messages.show({
-        kind: 'note',
-        text: 'The link is copied: it shows exactly this, event and camera included.',
-      });
-    } catch {
-      this.messages.show({ kind: 'note', text: 'The address bar holds the link to exactly this; copy it from there.' });
-    }
+    await copyAddress(this.messages);
   }
 
   private async save(format: SaveFormat): Promise<void> {

@@ -1,4 +1,4 @@
-// Dialogs of the page, loaded when they are wanted.
+// Dialogs of the page, loaded when they are wanted, and its link.
 import type { Messages } from '../panels/messages.ts';
 import { showOnce } from '../ui/dom.ts';
 
@@ -15,4 +15,15 @@ export async function showEmbed(link: string, caption: string, messages: Message
   );
   showOnce(dialog.element);
   dialog.show(link, caption);
+}
+
+/** The address, which holds all of the state, to the clipboard where that is allowed. */
+export async function copyAddress(messages: Messages): Promise<void> {
+  let text = 'The link is copied: it shows exactly this, event and camera included.';
+  try {
+    await navigator.clipboard.writeText(location.href);
+  } catch {
+    text = 'The address bar holds the link to exactly this; copy it from there.'; // forbidden, or no clipboard there
+  }
+  messages.show({ kind: 'note', text });
 }

@@ -131,3 +131,10 @@ export function pickedRange({ measure, low, high }: Inside['quality']): [number,
   if (low <= 0 && high >= 1) return null;
   return measure === 'length' ? [low / (1 - low), high < 1 ? high / (1 - high) : Infinity] : [low, high];
 }
+
+/** The same look with the cells in a range of values alone; null: all. */
+export function withRange(inside: Inside, measure: QualityMeasure, range: [number, number] | null): Inside {
+  const share = (value: number): number => (measure === 'length' ? value / (1 + value) : value);
+  const [low, high] = range ? range.map((value) => Math.min(1, Math.max(0, share(value)))) : [0, 1];
+  return { ...inside, quality: { measure, low, high } };
+}

@@ -178,8 +178,8 @@ export function makeSetup(actions: SetupActions): Setup {
       if (file) actions.chooseFile(file);
     },
   });
-  const button = (name: IconName, label: string, action: () => void): HTMLButtonElement =>
-    h('button', { type: 'button', class: 'plain', onclick: action }, icon(name), label);
+  const button = (name: IconName, label: string, title: string, action: () => void): HTMLButtonElement =>
+    h('button', { type: 'button', class: 'plain', title, onclick: action }, icon(name), label);
   const paper = h(
     'div',
     { class: 'figures', role: 'group', 'aria-labelledby': 'figures-title' },
@@ -248,11 +248,11 @@ export function makeSetup(actions: SetupActions): Setup {
     h(
       'div',
       { class: 'own', role: 'group', 'aria-label': 'A metric or mesh of your own' },
-      button('brush', 'Draw', actions.sketch),
-      button('open', 'Open', () => fileInput.click()),
-      button('camera', 'Camera', actions.takePicture),
+      button('brush', 'Draw', 'Draw where cells are to be small', actions.sketch),
+      button('open', 'Open', `Open a mesh (${meshEndings.join(', ')}), a picture, a metric (.sol) (O)`, () => fileInput.click()),
+      button('camera', 'Camera', 'A picture from the camera as the metric', actions.takePicture),
     ),
-    h('p', { class: 'hint' }, `Or drop a file anywhere: a mesh (${meshEndings.join(', ')}), a picture, a metric (.sol). It stays in your browser.`),
+    h('p', { class: 'hint' }, 'Or drop a mesh, a picture or a metric (.sol) anywhere. It stays in your browser.'),
     sketchPlace,
     fileInput,
     paper,

@@ -2,7 +2,6 @@
 import type { Measures } from '../../../wasm/protocol.ts';
 import type { MeshArrays } from '../../../wasm/session.ts';
 import { defaultInside, isFiltered, passes, type Inside, type QualityMeasure } from '../inside/look_inside.ts';
-import { cellLengths, scaledJacobians } from '../inside/measures.ts';
 import type { Drawing } from '../export/svg.ts';
 import { cellWord } from '../replay/caption.ts';
 import type { Player, Shown } from '../replay/player.ts';
@@ -46,6 +45,8 @@ export class Picture {
   private jacobians = { changes: -1, values: new Float64Array(0) };
   private dark = false;
   private pointing: Pointing | null = null;
+  /** Comes with the drawing code: nothing else has a use for these measures. */
+  private maths: typeof import('../inside/measures.ts') | null = null;
   /** Called with what is told of the cell that is pointed at, null when there is none. */
   onPoint: (sentence: string | null) => void = () => undefined;
   private lastPose: CameraPose | null = null;
@@ -60,8 +61,13 @@ export class Picture {
     if (this.viewport) return;
     let make;
     try {
-      const [{ Viewport }, pointing] = await Promise.all([import('../viewport/viewport.ts'), import('./pointing.ts')]);
+      const [{ Viewport }, pointing, maths] = await Promise.all([
+        import('../viewport/viewport.ts'),
+        import('./pointing.ts'),
+        import('../inside/measures.ts'),
+      ]);
       if (this.viewport) return;
+      this.maths = maths;
       make = pointing.Pointing;
       this.viewport = new Viewport(this.host);
     } catch (error) {
@@ -135,7 +141,7 @@ export class Picture {
   /** What was measured a moment ago; colours of cells made since are left out. */
   setMeasures({ shapes, edges, lengths }: Measures): void {
     this.shapes = shapes as Float64Array<ArrayBuffer>;
-    this.lengths = cellLengths(this.player.mesh, edges, lengths).map((l) => l / (1 + l));
+    this.lengths = this.maths?.cellLengths(this.player.mesh, edges, lengths).map((l) => l / (1 + l)) ?? new Float64Array(0);
     const { colouring, inside } = this.look;
     if (colouring === 'shape' || colouring === 'length' || isFiltered(inside.quality)) this.paint();
   }
@@ -145,8 +151,8 @@ export class Picture {
     if (name === 'eta') return this.shapes;
     if (name === 'length') return this.lengths;
     const { mesh } = this.player;
-    if (this.jacobians.changes !== mesh.changes)
-      this.jacobians = { changes: mesh.changes, values: scaledJacobians(mesh) as Float64Array<ArrayBuffer> };
+    if (this.maths && this.jacobians.changes !== mesh.changes)
+      this.jacobians = { changes: mesh.changes, values: this.maths.scaledJacobians(mesh) as Float64Array<ArrayBuffer> };
     return this.jacobians.values;
   }
 

@@ -91,7 +91,10 @@ export class Stage {
 
   /** Loads the drawing code and draws; again after `rest`. */
   show(): Promise<void> {
-    this.pictureLoaded = this.picture.load().then(() => this.sampling.request(0));
+    this.pictureLoaded = this.picture.load().then(() => {
+      this.sampling.request(0);
+      if (this.measures) this.measuring.request(0); // they came before there was a picture to colour
+    });
     return this.pictureLoaded;
   }
 
