@@ -138,8 +138,10 @@ struct Adapter<Dim>::State {
   /// Full adaptation searches coarse meshes first, where that costs least: one whose edges are about as long as those of the
   /// input, then finer ones, made by dicing, that only have to be mended.
   [[nodiscard]] int halvings_to_come() const {
+    double l = mean_edge_length(mesh, field);
+    if (l * l * mesh.cell_count() > static_cast<double>(options.max_cells)) return 0;  // layers stop before that many
     int n = 0;
-    for (double l = mean_edge_length(mesh, field); l >= 2.0; l *= 0.5) ++n;
+    for (; l >= 2.0; l *= 0.5) ++n;
     return n;
   }
 
@@ -405,10 +407,16 @@ struct Adapter<Dim>::State {
     begin_smoothing();
   }
 
+  /// Share of full adaptation that is done: each mesh takes four times as long as the coarser one before it.
+  [[nodiscard]] double improved() const {
+    const double share = schedule ? schedule->share() : 1.0;
+    return (diced ? 0.25 + 0.75 * share : share) / static_cast<double>(std::int64_t{1} << (2 * halvings));
+  }
+
   void report_progress(std::string_view activity) {
     if (!context.progress) return;
     const double estimate = stage == Stage::done         ? 1.0
-                         : stage == Stage::improve    ? 0.1 + 0.9 * (schedule ? schedule->share() : 1.0)
+                         : stage == Stage::improve    ? 0.1 + 0.9 * improved()
                          : full()                     ? 0.1 * (1.0 - 1.0 / (1.0 + 0.5 * iteration))
                          : stage == Stage::smooth_end ? 0.7 + 0.3 * sweeps / std::max(1, options.max_sweeps)
                                                       : 0.7 * (1.0 - 1.0 / (1.0 + 0.5 * iteration));
