@@ -18,7 +18,7 @@ Budget budget_of(Effort effort, bool diced, int halvings) {
     case Effort::fast:
       return diced ? Budget{0, 0, 0, 1, halvings > 0 ? 1 : 0, 0, 0, 4} : Budget{6, 0.3, 0.1, 3, 2, 0, 4, 2};
     case Effort::normal:
-      return diced ? Budget{16, 0.25, 0.05, 8, 3, 2 * polish, 4, 20} : Budget{30, 0.5, 0.06, 8, 4, 2 * polish, 20, 20};
+      return diced ? Budget{30, 0.4, 0.08, 10, 3, 2 * polish, 4, 20} : Budget{30, 0.5, 0.06, 8, 4, 2 * polish, 20, 20};
     case Effort::best: break;
   }
   return diced ? Budget{110, 0.4, 0.1, 20, 20, 6 * polish, 20, 100} : Budget{60, 0.6, 0.05, 20, 20, 6 * polish, 40, 100};
