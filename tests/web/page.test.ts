@@ -96,7 +96,7 @@ describe('playing', () => {
   });
 
   test('a run can be stopped, and what it has done can be played', async () => {
-    await visit('#case=circle-1');
+    await visit('#mesh=grid:20,20:0,1,0,1&metric=h %3D 0.002%2B0.01*abs(x-y)');
     await page.getByRole('button', { name: 'Run', exact: true }).click();
     await page.getByRole('button', { name: 'Stop' }).click();
     await expect.poll(() => status().innerText(), eventually).toContain('stopped');
