@@ -23,9 +23,11 @@ struct Tally {
 };
 
 /// Tries `sets` random proper subsets of 1 to `largest` cells, each on the mesh as it came.
-Tally try_random_sets(const Mesh<3>& initial, int sets, std::size_t largest, unsigned seed) {
+Tally try_random_sets(const Mesh<3>& initial, int sets, std::size_t largest, unsigned seed,
+                      std::int64_t most_untangling = std::numeric_limits<std::int64_t>::max()) {
   std::mt19937 random(seed);
   PillowWorkspace<3> work;
+  work.most_untangling = most_untangling;
   BufferLayer<3> layer;
   Tally tally;
   Mesh<3> mesh = initial;
@@ -95,6 +97,17 @@ TEST_CASE("random shrink sets give a valid mesh or leave the mesh untouched, and
       CHECK(tally.share() >= 0.95);
     }
   }
+}
+
+TEST_CASE("the less may be untangled, the more sets are refused; a hundred thousand evaluations give nearly all") {
+  const auto mesh = primitive("ogrid:4,2,4:1,0,2");
+  const int none = try_random_sets(mesh, 60, 25, 1, 0).given;
+  const int few = try_random_sets(mesh, 60, 25, 1, 1000).given;
+  const int most = try_random_sets(mesh, 60, 25, 1, 100'000).given;
+  INFO(none << " " << few << " " << most);
+  CHECK(none < few);
+  CHECK(few < most);
+  CHECK(most >= 57);
 }
 
 TEST_CASE("sets on the o-grid that touch themselves so that they have to be enlarged give a valid mesh") {

@@ -27,7 +27,8 @@ template <int Dim>
 bool untangle(Mesh<Dim>& mesh, const Mesh<Dim>& wanted, const std::vector<VertexId>& vertices) {
   TangledPatch<Dim> patch;
   extend<Dim>(patch, wanted, vertices);
-  return untangle<Dim>(mesh, patch);
+  std::int64_t most_work = 1'000'000;
+  return untangle<Dim>(mesh, patch, 0.0, most_work);
 }
 
 template <int Dim>

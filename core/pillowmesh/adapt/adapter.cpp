@@ -27,6 +27,7 @@ namespace pillowmesh {
 namespace {
 
 constexpr int kMostMended = 2;
+constexpr std::int64_t kMostUntangling = 300'000;  ///< for a layer, in evaluations of the energy of a cell
 
 enum class Stage { tag, layers, smooth_between, dice, smooth_end, polish, improve, done };
 
@@ -53,7 +54,7 @@ struct Adapter<Dim>::State {
   std::size_t next_seed = 0;
   std::int64_t inserted = 0;  ///< layers in this iteration
   std::optional<double> longest;  ///< of the edges, for events: since the last iteration, while nothing has changed
-  std::int64_t refused = 0;   ///< layers that no legal insertion was found for, in this iteration
+  bool woken = false;         ///< layers that were refused have been tried once more since the last was inserted
   LayerMarks layer_marks;
   Layer layer;
   PillowWorkspace<Dim> pillow;
@@ -102,6 +103,7 @@ struct Adapter<Dim>::State {
     if (outcome.ok() && mesh.frozen && options.dice > 1)
       outcome = Status::usage("dicing would split what is frozen; leave out one of them");
     if (!outcome.ok()) stage = Stage::done;
+    pillow.most_untangling = kMostUntangling;
     if constexpr (Dim == 3) {  // no layer may leave a worse cell than the input has, nor a bad one
       pillow.quality_floor = 0.02;
       for (CellId c = 0; c < mesh.cell_count(); ++c)
@@ -166,11 +168,18 @@ struct Adapter<Dim>::State {
       report_progress("done");
       return;
     }
-    const bool again = iteration == first_iteration || inserted > 0;
+    bool again = iteration == first_iteration || inserted > 0;
+    if (inserted > 0) woken = false;
+    if ((seeds.empty() || !again) && !woken && tagging.wake()) {  // before it is over
+      woken = again = true;
+      const std::vector<CellId> more = tagging.tag_long_edges(mesh, target, tags);
+      seeds.insert(seeds.end(), more.begin(), more.end());
+      drop_frozen_tags(mesh, tags, seeds);
+    }
     const bool over = seeds.empty() || !again || iteration - first_iteration == options.max_iterations;
     if (over && !continuation.done()) return lower_floor();
     if (over) {
-      if (!seeds.empty() && !meets_request())
+      if ((!seeds.empty() || tagging.waiting()) && !meets_request())
         outcome = Status::limit_not_met(
             again ? "edges longer than the threshold remain after " + std::to_string(iteration) + " iterations"
                   : "edges longer than the threshold remain where no layer can be inserted");
@@ -197,7 +206,7 @@ struct Adapter<Dim>::State {
     longest.reset();
     next_seed = 0;
     first_new = mesh.cell_count();
-    inserted = refused = 0;
+    inserted = 0;
     layer_marks.refined.clear();
     stage = Stage::layers;
   }
@@ -228,10 +237,9 @@ struct Adapter<Dim>::State {
       // The layer is the whole mesh: split it off the boundary that it lies on.
       s = insert_buffer_layer<Dim>(mesh, layer.cells, boundary_below(), pillow, buffer_layer);
     }
-    if (!s.ok()) {  // its edges are looked at again in the next iteration, when the mesh around has changed
-      ++refused;
+    if (!s.ok()) {  // its edges are looked at again in a later iteration, when the mesh around has changed
       ++refusals;
-      for (const LayerCell& visit : layer.visits) tagging.look_again(visit.cell);
+      for (const LayerCell& visit : layer.visits) tagging.look_again_later(visit.cell);
       recorder.drop_last();
       return;
     }
@@ -359,7 +367,7 @@ struct Adapter<Dim>::State {
   /// Full adaptation: layers, for the first time or where edges have become too long, then the operators.
   void insert_layers() {
     tags.mask.assign(mesh.cells.size(), 0);
-    tagging.look_at_all(mesh);
+    tagging = Tagging<Dim>(mesh, options.threshold);
     first_iteration = iteration;
     longest.reset();
     cells_before_layers = diced ? mesh.cell_count() : 0;

@@ -36,7 +36,24 @@ void Tagging<Dim>::look_again(CellId c) {
 }
 
 template <int Dim>
+void Tagging<Dim>::look_again_later(CellId c) {
+  constexpr int longest_wait = 6;  // 2^6 calls
+  if (static_cast<std::size_t>(c) >= refusals_.size()) refusals_.resize(c + 1 + c / 2, 0);
+  waiting_.push_back({c, calls_ + (1 << refusals_[c])});
+  if (refusals_[c] < longest_wait) ++refusals_[c];
+}
+
+template <int Dim>
+bool Tagging<Dim>::wake() {
+  const bool any = waiting();
+  for (const Refused& refused : waiting_) look_again(refused.cell);
+  waiting_.clear();
+  return any;
+}
+
+template <int Dim>
 void Tagging<Dim>::look_at_all(const Mesh<Dim>& mesh) {
+  waiting_.clear();
   for (CellId c = 0; c < mesh.cell_count(); ++c)
     if (mesh.alive(c)) look_again(c);
 }
@@ -47,6 +64,12 @@ std::vector<CellId> Tagging<Dim>::tag_long_edges(const Mesh<Dim>& mesh, const Me
   using C = Cell<Dim>;
   tags.mask.resize(mesh.cells.size(), 0);
   measured_.assign(mesh.cells.size(), 0);
+  ++calls_;
+  std::erase_if(waiting_, [&](const Refused& refused) {
+    if (refused.until > calls_) return false;
+    look_again(refused.cell);
+    return true;
+  });
   sort_marked(list_, changed_);
   constexpr std::size_t batch = 2048;
   std::vector<std::array<VertexId, 2>> edges;

@@ -19,6 +19,13 @@ class Tagging {
   void look_again(CellId c);
   void look_at_all(const Mesh<Dim>& mesh);
 
+  /// No layer could be inserted at this cell: its edges are measured again in the next call, after a second refusal in the
+  /// second one from now, then in the fourth and so on; sooner where they change.
+  void look_again_later(CellId c);
+  /// Those that wait are looked at in the next call. \return whether there were any.
+  bool wake();
+  [[nodiscard]] bool waiting() const { return !waiting_.empty(); }
+
   /// Tags the edges that are too long among those that changed. \return the cells that now carry tags, in ascending
   /// order. Cost: the edges of the cells that changed.
   std::vector<CellId> tag_long_edges(const Mesh<Dim>& mesh, const MetricField<Dim>& field, EdgeTags<Dim>& tags);
@@ -31,6 +38,13 @@ class Tagging {
   double panel_;
   std::vector<std::uint8_t> changed_;  ///< per cell
   std::vector<CellId> list_;
+  struct Refused {
+    CellId cell;
+    int until;
+  };
+  std::vector<Refused> waiting_;
+  std::vector<std::uint8_t> refusals_;  ///< per cell
+  int calls_ = 0;
   std::vector<typename EdgeTags<Dim>::Mask> measured_;  ///< edges that this call has seen
 };
 

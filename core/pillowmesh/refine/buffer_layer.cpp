@@ -24,7 +24,8 @@ class Inserter {
         layer_(layer),
         sides_(work.sides),
         old_vertex_cell_(work.old_vertex_cell),
-        floor_(work.quality_floor) {}
+        floor_(work.quality_floor),
+        most_work_(work.most_untangling) {}
 
   void rename_corners() {
     touched_.clear();
@@ -181,7 +182,7 @@ class Inserter {
     return true;
   }
 
-  bool make_room() { return pillowmesh::make_room(mesh_, hull_, floor_, layer_); }
+  bool make_room() { return pillowmesh::make_room(mesh_, hull_, floor_, most_work_, layer_); }
 
   void undo() {
     for (std::size_t i = 0; i < layer_.moved.size(); ++i) {
@@ -305,6 +306,7 @@ class Inserter {
   std::vector<NewCellSide>& sides_;
   std::vector<CellId>& old_vertex_cell_;
   double floor_;
+  std::int64_t most_work_;
 };
 
 template <int Dim>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,9 @@ template <int Dim>
 struct PillowWorkspace {
   /// A layer is refused if it would leave a cell whose smallest scaled Jacobian is not above this. 0: only valid.
   double quality_floor = 0.0;
+  /// How often the energy of a cell may be evaluated while vertices are moved to make room. Where there is any, a few
+  /// hundred times for each cell of the layer mostly suffice.
+  std::int64_t most_untangling = std::numeric_limits<std::int64_t>::max();
   Hull<Dim> hull;
   CopyPlan<Dim> plan;
   std::vector<CellId> touched;

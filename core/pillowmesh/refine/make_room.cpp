@@ -113,28 +113,28 @@ void free_vertices(const Mesh<Dim>& mesh, const Hull<Dim>& hull, const std::vect
 }  // namespace
 
 template <int Dim>
-bool make_room(Mesh<Dim>& mesh, const Hull<Dim>& hull, double floor, BufferLayer<Dim>& layer) {
+bool make_room(Mesh<Dim>& mesh, const Hull<Dim>& hull, double floor, std::int64_t most_work, BufferLayer<Dim>& layer) {
   TangledPatch<Dim> patch;
   std::vector<VertexId> vertices(layer.origins.size());
   std::iota(vertices.begin(), vertices.end(), layer.first_vertex);
   free_vertices(mesh, hull, vertices, layer, patch);
-  if (untangle(mesh, patch, floor)) return true;
+  if (untangle(mesh, patch, floor, most_work)) return true;
   const auto corners_of = [&](CellId c) { vertices.insert(vertices.end(), mesh.cells[c].begin(), mesh.cells[c].end()); };
   vertices.clear();
   for (const CellId c : layer.changed) corners_of(c);
   for (CellId c = layer.first_cell; c < mesh.cell_count(); ++c) corners_of(c);
-  for (int ring = 0; ring <= most_rings; ++ring) {
+  for (int ring = 0; ring <= most_rings && most_work > 0; ++ring) {
     const std::size_t before = patch.free.size();
     free_vertices(mesh, hull, vertices, layer, patch);
     if (patch.free.size() == before) return false;
-    if (untangle(mesh, patch, floor)) return true;
+    if (untangle(mesh, patch, floor, most_work)) return true;
     vertices.clear();
     for (const CellId c : patch.cells) corners_of(c);
   }
   return false;
 }
 
-template bool make_room(Mesh<2>&, const Hull<2>&, double, BufferLayer<2>&);
-template bool make_room(Mesh<3>&, const Hull<3>&, double, BufferLayer<3>&);
+template bool make_room(Mesh<2>&, const Hull<2>&, double, std::int64_t, BufferLayer<2>&);
+template bool make_room(Mesh<3>&, const Hull<3>&, double, std::int64_t, BufferLayer<3>&);
 
 }  // namespace pillowmesh

@@ -17,22 +17,27 @@ constexpr int steps_per_round = 30;
 template <int Dim>
 class Untangler {
  public:
-  Untangler(Mesh<Dim>& mesh, const TangledPatch<Dim>& patch, double floor)
-      : mesh_(mesh), patch_(patch), floor_(floor), energy_(mesh, patch), n_(patch.free.size()) {}
+  Untangler(Mesh<Dim>& mesh, const TangledPatch<Dim>& patch, double floor, std::int64_t& work_left)
+      : mesh_(mesh),
+        patch_(patch),
+        floor_(floor),
+        work_left_(work_left),
+        energy_(mesh, patch),
+        n_(patch.free.size()) {}
 
   bool run() {
-    PatchEnergy now = energy_.evaluate(1.0, nullptr);
+    PatchEnergy now = evaluate(1.0, nullptr);
     double eps = std::max(0.05, now.lowest < 0 ? -now.lowest : 0.0);
     int stuck = 0;
-    for (int round = 0; round < most_rounds; ++round) {
-      const double before = energy_.evaluate(eps, nullptr).value;
+    for (int round = 0; round < most_rounds && work_left_ > 0; ++round) {
+      const double before = evaluate(eps, nullptr).value;
       now = descend(eps);
       if (now.lowest > 0) {
         const Verdict verdict = judge();
         if (verdict == Verdict::good) return true;
         if (verdict == Verdict::inverted_inside && !energy_.looks_inside()) {
           energy_.look_inside();
-          now = energy_.evaluate(1.0, nullptr);
+          now = evaluate(1.0, nullptr);
           eps = std::max(0.05, now.lowest < 0 ? -now.lowest : 0.0);
           continue;
         }
@@ -50,6 +55,11 @@ class Untangler {
   }
 
  private:
+  PatchEnergy evaluate(double eps, std::vector<Point<Dim>>* gradient) {
+    work_left_ -= static_cast<std::int64_t>(patch_.cells.size());
+    return energy_.evaluate(eps, gradient);
+  }
+
   enum class Verdict { good, inverted, inverted_inside, below_floor };
 
   Verdict judge() const {
@@ -72,10 +82,10 @@ class Untangler {
   /// L-BFGS in coordinates that are scaled by the size of the cells around each vertex.
   PatchEnergy descend(double eps) {
     history_.clear();
-    PatchEnergy now = energy_.evaluate(eps, &gradient_);
+    PatchEnergy now = evaluate(eps, &gradient_);
     to_tangent();
     double recent = now.value;
-    for (int step = 0; step < steps_per_round; ++step) {
+    for (int step = 0; step < steps_per_round && work_left_ > 0; ++step) {
       find_direction();
       if (!line_search(eps, now)) {
         if (history_.empty()) break;
@@ -158,7 +168,7 @@ class Untangler {
         if (mesh_.support[v].dim < Dim) keep_off_end(i);
         move_[i] = (mesh_.points[v] - from_[i]) / energy_.size(i);
       }
-      const PatchEnergy there = energy_.evaluate(eps, &gradient_);
+      const PatchEnergy there = evaluate(eps, &gradient_);
       if (there.value < now.value - 1e-4 * t * slope) {
         now = there;
         to_tangent();
@@ -236,6 +246,7 @@ class Untangler {
   Mesh<Dim>& mesh_;
   const TangledPatch<Dim>& patch_;
   double floor_;
+  std::int64_t& work_left_;
   UntangleEnergy<Dim> energy_;
   std::size_t n_;
   std::vector<Point<Dim>> gradient_, old_gradient_, direction_, move_, from_;
@@ -276,13 +287,13 @@ void extend(TangledPatch<Dim>& patch, const Mesh<Dim>& mesh, std::span<const Ver
 }
 
 template <int Dim>
-bool untangle(Mesh<Dim>& mesh, const TangledPatch<Dim>& patch, double floor) {
-  return Untangler<Dim>(mesh, patch, floor).run();
+bool untangle(Mesh<Dim>& mesh, const TangledPatch<Dim>& patch, double floor, std::int64_t& most_work) {
+  return Untangler<Dim>(mesh, patch, floor, most_work).run();
 }
 
 template void extend(TangledPatch<2>&, const Mesh<2>&, std::span<const VertexId>);
 template void extend(TangledPatch<3>&, const Mesh<3>&, std::span<const VertexId>);
-template bool untangle(Mesh<2>&, const TangledPatch<2>&, double);
-template bool untangle(Mesh<3>&, const TangledPatch<3>&, double);
+template bool untangle(Mesh<2>&, const TangledPatch<2>&, double, std::int64_t&);
+template bool untangle(Mesh<3>&, const TangledPatch<3>&, double, std::int64_t&);
 
 }  // namespace pillowmesh

@@ -1,6 +1,7 @@
 // Finds places for new vertices where simple ones fail: around bent or mixed convex and re-entrant hulls.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -37,9 +38,10 @@ void extend(TangledPatch<Dim>& patch, const Mesh<Dim>& mesh, std::span<const Ver
 /// By L-BFGS, the free vertices all at once: vertices that block each other cannot be moved one by one.
 /// Source: Garanzha et al., "Foldover-free maps in 50 lines of code" (2021); chi: Escobar et al., "Simultaneous
 /// untangling and smoothing of tetrahedral meshes" (2003).
+/// \param most_work how often the energy of a cell may be evaluated; what was is taken off.
 /// \return whether it succeeded; if not, the vertices are left where they ended. Cost: linear in the patch, times some
 /// hundred evaluations.
 template <int Dim>
-bool untangle(Mesh<Dim>& mesh, const TangledPatch<Dim>& patch, double floor = 0.0);
+bool untangle(Mesh<Dim>& mesh, const TangledPatch<Dim>& patch, double floor, std::int64_t& most_work);
 
 }  // namespace pillowmesh
