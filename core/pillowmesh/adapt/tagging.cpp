@@ -37,9 +37,9 @@ void Tagging<Dim>::look_again(CellId c) {
 
 template <int Dim>
 void Tagging<Dim>::look_again_later(CellId c) {
-  constexpr int longest_wait = 6;  // 2^6 calls
+  constexpr int free_tries = 2, longest_wait = 8;  // 2^6 calls
   if (static_cast<std::size_t>(c) >= refusals_.size()) refusals_.resize(c + 1 + c / 2, 0);
-  waiting_.push_back({c, calls_ + (1 << refusals_[c])});
+  waiting_.push_back({c, calls_ + (1 << std::max(refusals_[c] - free_tries, 0))});
   if (refusals_[c] < longest_wait) ++refusals_[c];
 }
 

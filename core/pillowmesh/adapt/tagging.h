@@ -19,7 +19,7 @@ class Tagging {
   void look_again(CellId c);
   void look_at_all(const Mesh<Dim>& mesh);
 
-  /// No layer could be inserted at this cell: its edges are measured again in the next call, after a second refusal in the
+  /// No layer could be inserted at this cell: its edges are measured again in the next call, after a fourth refusal in the
   /// second one from now, then in the fourth and so on; sooner where they change.
   void look_again_later(CellId c);
   /// Those that wait are looked at in the next call. \return whether there were any.
