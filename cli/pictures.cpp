@@ -32,7 +32,7 @@ Expected<GrayImage> read_image(const std::string& path) {
                                           static_cast<int>(bytes->size()), &image.width, &image.height, &channels, 1);
   if (pixels == nullptr)
     return Status::bad_input(path + ": not an image that can be read (" + stbi_failure_reason() +
-                             "); known are PNG, JPEG, BMP and PNM");
+                             "); known are PNG, JPEG, BMP and binary PNM");
   const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   image.values.assign(pixels, pixels + count);
   stbi_image_free(pixels);
