@@ -6,13 +6,11 @@
 #include <optional>
 
 #include "pillowmesh/adapt/continuation.h"
-#include "pillowmesh/adapt/halving.h"
+#include "pillowmesh/adapt/full_adaptation.h"
 #include "pillowmesh/adapt/longest_edge.h"
 #include "pillowmesh/adapt/recorder.h"
-#include "pillowmesh/adapt/schedule.h"
 #include "pillowmesh/adapt/stopwatch.h"
 #include "pillowmesh/adapt/tagging.h"
-#include "pillowmesh/mesh/compact.h"
 #include "pillowmesh/mesh/frozen.h"
 #include "pillowmesh/mesh/jacobian.h"
 #include "pillowmesh/mesh/smooth_geometry.h"
@@ -26,7 +24,6 @@
 namespace pillowmesh {
 namespace {
 
-constexpr int kMostMended = 2;
 constexpr std::int64_t kMostUntangling = 300'000;  ///< for a layer, in evaluations of the energy of a cell
 
 enum class Stage { tag, layers, smooth_between, dice, smooth_end, polish, improve, done };
@@ -60,11 +57,7 @@ struct Adapter<Dim>::State {
   PillowWorkspace<Dim> pillow;
   BufferLayer<Dim> buffer_layer;
   std::optional<Relocator<Dim>> relocator;
-  std::unique_ptr<Schedule> schedule;  ///< full adaptation only
-  bool diced = false;     ///< the mesh was made from one that had been adapted: it only has to be mended
-  CellId cells_before_layers = 0;
-  int mended = 0;         ///< how often edges had become too long in the end
-  int halvings = 0;  ///< full adaptation: how often the mesh is still to be diced in four
+  std::unique_ptr<FullAdaptation> improvement;  ///< full adaptation only
   int sweeps = 0;
   double energy = 0.0;  ///< after the last of them
   bool smoothed = false;  ///< the last smoothing is done; only a look at the lengths is left
@@ -93,7 +86,9 @@ struct Adapter<Dim>::State {
         recorder(options.record) {
     if (options.geometry == BoundaryShape::smooth) mesh.geometry = smooth_geometry(std::move(mesh.geometry));
     outcome = field.check(mesh.points);
-    if (outcome.ok() && full() && !mesh.frozen) halvings = halvings_to_come();
+    if constexpr (Dim == 2 && kHasFullAdaptation)
+      if (outcome.ok() && full_adaptation(options))
+        improvement = std::make_unique<FullAdaptation>(mesh, field, options, recorder, operations);
     target = aim();
     if constexpr (Dim == 3)
       if (outcome.ok() && continuation.steep() && options.continuation < 0 && options.smoothing != Smoothing::none) {
@@ -133,18 +128,8 @@ struct Adapter<Dim>::State {
   }
 
   [[nodiscard]] MetricField<Dim> aim() const {
-    const int coarser = options.dice << halvings;
+    const int coarser = improvement ? improvement->coarser() : options.dice;
     return continuation.approach(coarser > 1 ? field.scaled(coarser) : field);
-  }
-
-  /// Full adaptation searches coarse meshes first, where that costs least: one whose edges are about as long as those of the
-  /// input, then finer ones, made by dicing, that only have to be mended.
-  [[nodiscard]] int halvings_to_come() const {
-    double l = mean_edge_length(mesh, field);
-    if (l * l * mesh.cell_count() > static_cast<double>(options.max_cells)) return 0;  // layers stop before that many
-    int n = 0;
-    for (; l >= 2.0; l *= 0.5) ++n;
-    return n;
   }
 
   /// The next step of continuation: smaller sizes, all edges to be looked at again, after smoothing for them.
@@ -187,12 +172,12 @@ struct Adapter<Dim>::State {
         stage = Stage::done;
         return;
       }
-      if (full()) {
-        // A few layers more only have to be mended.
-        diced = 10 * mesh.cell_count() < 11 * cells_before_layers;
-        stage = Stage::improve;
-        return;
-      }
+      if constexpr (Dim == 2 && kHasFullAdaptation)
+        if (improvement) {
+          improvement->begin(mesh);
+          stage = Stage::improve;
+          return;
+        }
       stage = options.dice > 1 ? Stage::dice : Stage::smooth_end;
       begin_smoothing();
       return;
@@ -348,48 +333,27 @@ struct Adapter<Dim>::State {
   void improve() {
     if constexpr (Dim == 2 && kHasFullAdaptation) {
       const Stopwatch watch(improve_seconds);
-      if (!schedule) schedule = std::make_unique<Schedule>(mesh, target, options, diced, halvings, recorder, operations, iteration);
-      const bool more = schedule->step();
-      report_progress(schedule->activity());
-      if (more) return;
-      schedule.reset();
-      if (halvings > 0) return halve();
-      // What the layers could not shorten the operators may have, and the other way round.
-      const double longest = longest_edge(mesh, target);
-      const bool met = longest <= options.threshold * (1.0 + kLongestEdgeTolerance);
-      if (!met && mended++ < kMostMended) return insert_layers();
-      outcome = met ? Status{} : Status::limit_not_met("edges longer than the threshold remain");
-      stage = Stage::done;
-      report_progress("done");
+      using Next = FullAdaptation::Next;
+      const Next next = improvement->step(mesh, field, target, iteration);
+      if (next == Next::finer || next == Next::layers) {
+        target = aim();
+        longest.reset();
+      }
+      if (next == Next::layers) insert_layers();
+      if (next == Next::done) {
+        outcome = improvement->outcome();
+        stage = Stage::done;
+      }
+      report_progress(stage == Stage::done ? "done" : improvement->activity());
     }
   }
 
-  /// Full adaptation: layers, for the first time or where edges have become too long, then the operators.
+  /// Again from step 1, on a mesh that operators have changed.
   void insert_layers() {
     tags.mask.assign(mesh.cells.size(), 0);
     tagging = Tagging<Dim>(mesh, options.threshold);
     first_iteration = iteration;
-    longest.reset();
-    cells_before_layers = diced ? mesh.cell_count() : 0;
     stage = Stage::tag;
-  }
-
-  /// Full adaptation: every cell in four, for sizes half as large. What is too long then is relocated first: layers through
-  /// cells that are out of shape would go everywhere.
-  void halve() {
-    recorder.before_dice(mesh);
-    compact(mesh);
-    diced = 4 * static_cast<std::int64_t>(mesh.cell_count()) <= options.max_cells && halve_cells();
-    halvings = diced ? halvings - 1 : 0;
-    recorder.dice(mesh, iteration);
-    target = aim();
-    longest.reset();
-    if (!diced) insert_layers();
-  }
-
-  bool halve_cells() {
-    if constexpr (Dim == 2) return halve_sizes(mesh, field).ok();
-    return false;
   }
 
   void dice_all() {
@@ -415,16 +379,13 @@ struct Adapter<Dim>::State {
     begin_smoothing();
   }
 
-  /// Share of full adaptation that is done: each mesh takes four times as long as the coarser one before it.
-  [[nodiscard]] double improved() const {
-    const double share = schedule ? schedule->share() : 1.0;
-    return (diced ? 0.25 + 0.75 * share : share) / static_cast<double>(std::int64_t{1} << (2 * halvings));
-  }
-
   void report_progress(std::string_view activity) {
     if (!context.progress) return;
+    double improved = 0.0;
+    if constexpr (Dim == 2 && kHasFullAdaptation)
+      if (improvement) improved = improvement->share();
     const double estimate = stage == Stage::done         ? 1.0
-                         : stage == Stage::improve    ? 0.1 + 0.9 * improved()
+                         : stage == Stage::improve    ? 0.1 + 0.9 * improved
                          : full()                     ? 0.1 * (1.0 - 1.0 / (1.0 + 0.5 * iteration))
                          : stage == Stage::smooth_end ? 0.7 + 0.3 * sweeps / std::max(1, options.max_sweeps)
                                                       : 0.7 * (1.0 - 1.0 / (1.0 + 0.5 * iteration));

@@ -1,0 +1,74 @@
+#include "pillowmesh/adapt/full_adaptation.h"
+
+#include "pillowmesh/adapt/halving.h"
+#include "pillowmesh/adapt/longest_edge.h"
+#include "pillowmesh/mesh/compact.h"
+
+namespace pillowmesh {
+namespace {
+
+constexpr int kMostMended = 2;
+
+/// How often sizes can be doubled until edges are about as long as they are asked to be.
+int halvings_to_come(const Mesh<2>& mesh, const MetricField<2>& field, const AdaptOptions& options) {
+  if (mesh.frozen) return 0;
+  double l = mean_edge_length(mesh, field);
+  if (l * l * mesh.cell_count() > static_cast<double>(options.max_cells)) return 0;  // layers stop before that many
+  int n = 0;
+  for (; l >= 2.0; l *= 0.5) ++n;
+  return n;
+}
+
+}  // namespace
+
+FullAdaptation::FullAdaptation(const Mesh<2>& mesh, const MetricField<2>& field, const AdaptOptions& options,
+                               Recorder<2>& recorder, std::map<std::string, std::int64_t>& operations)
+    : options_(options),
+      recorder_(recorder),
+      operations_(operations),
+      halvings_(halvings_to_come(mesh, field, options)) {}
+
+void FullAdaptation::begin(const Mesh<2>& mesh) {
+  diced_ = 10 * mesh.cell_count() < 11 * cells_before_layers_;  // a few layers more only have to be mended
+}
+
+FullAdaptation::Next FullAdaptation::step(Mesh<2>& mesh, const MetricField<2>& field, const MetricField<2>& target,
+                                          int iteration) {
+  if (!schedule_)
+    schedule_ =
+        std::make_unique<Schedule>(mesh, target, options_, diced_, halvings_, recorder_, operations_, iteration);
+  const bool more = schedule_->step();
+  activity_ = schedule_->activity();
+  if (more) return Next::step;
+  schedule_.reset();
+  if (halvings_ > 0) return halve(mesh, field, iteration);
+  // What the layers could not shorten the operators may have, and the other way round.
+  const bool met = longest_edge(mesh, target) <= options_.threshold * (1.0 + kLongestEdgeTolerance);
+  if (!met && mended_++ < kMostMended) return insert_layers(mesh);
+  outcome_ = met ? Status{} : Status::limit_not_met("edges longer than the threshold remain");
+  return Next::done;
+}
+
+/// Every cell in four, for sizes half as large. What is too long then is relocated first: layers through cells that are out
+/// of shape would go everywhere.
+FullAdaptation::Next FullAdaptation::halve(Mesh<2>& mesh, const MetricField<2>& field, int iteration) {
+  recorder_.before_dice(mesh);
+  compact(mesh);
+  diced_ = 4 * static_cast<std::int64_t>(mesh.cell_count()) <= options_.max_cells && halve_sizes(mesh, field).ok();
+  halvings_ = diced_ ? halvings_ - 1 : 0;
+  recorder_.dice(mesh, iteration);
+  return diced_ ? Next::finer : insert_layers(mesh);
+}
+
+FullAdaptation::Next FullAdaptation::insert_layers(const Mesh<2>& mesh) {
+  cells_before_layers_ = diced_ ? mesh.cell_count() : 0;
+  return Next::layers;
+}
+
+/// Each mesh takes four times as long as the coarser one before it.
+double FullAdaptation::share() const {
+  const double share = schedule_ ? schedule_->share() : 1.0;
+  return (diced_ ? 0.25 + 0.75 * share : share) / static_cast<double>(std::int64_t{1} << (2 * halvings_));
+}
+
+}  // namespace pillowmesh
