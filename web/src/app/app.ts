@@ -115,12 +115,23 @@ export class App {
     },
     sketch: () => void this.live.sketch(),
     compareWith: (compare) => this.change({ compare }),
-    run: () => void (this.live.on ? this.live.follow() : this.stage.run.start('play')),
-    showEnd: () => void this.stage.seek(lastEvent),
+    run: () => {
+      this.showPicture();
+      void (this.live.on ? this.live.follow() : this.stage.run.start('play'));
+    },
+    showEnd: () => {
+      this.showPicture();
+      void this.stage.seek(lastEvent);
+    },
     stop: () => void (this.live.working ? this.live.stop() : this.stage.run.stop()),
   });
   private readonly start_ = makeStartButton(() => this.stage.run.togglePlay());
   private readonly rewriteLink = debounce(250, () => this.writeLink());
+
+  /** In one column, what was pressed may be far below it. */
+  private showPicture(): void {
+    this.stage.picture.host.closest('.frame')?.scrollIntoView({ block: 'nearest' });
+  }
 
   mount(root: HTMLElement): void {
     const { picture } = this.stage;
