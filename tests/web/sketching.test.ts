@@ -97,16 +97,32 @@ describe('sketching', () => {
     await expect.poll(() => page.locator('.board').count()).toBe(0);
   });
 
+  test('a better answer takes the picture over when it is as fine, not while coarse meshes are searched', async () => {
+    await visit('#mesh=grid:6,6:0,1,0,1&metric=h %3D 0.012%2B0.06*x&method=full&effort=normal&event=last&hide=ellipses');
+    // The picture's name tells how many cells an answer had when it took the picture over.
+    await page.evaluate(() => {
+      const picture = document.querySelector('.picture')!;
+      const taken = ((window as never as { taken: string[][] }).taken = []) as string[][];
+      new MutationObserver(() => {
+        taken.push([document.querySelector('.status')!.textContent!, picture.getAttribute('aria-label')!]);
+      }).observe(picture, { attributeFilter: ['aria-label'] });
+    });
+    await expect.poll(status, eventually).toMatch(/^[\d,]+ quads in [\d.]+ s\.$/);
+    const taken = await page.evaluate(() => (window as never as { taken: string[][] }).taken);
+    const better = taken.filter(([told]) => told.includes('Improving'));
+    expect(better.length).toBeGreaterThan(0);
+    const number = (words: string): number => Number(/[\d,]+/.exec(words)![0].replace(/,/g, ''));
+    for (const [first, name] of better) expect(number(name)).toBeGreaterThan(0.7 * number(first));
+  });
+
   test('looking at another moment ends the search for better answers', async () => {
     await visit('#mesh=grid:6,6:0,1,0,1&metric=h %3D 0.02%2B0.1*x&method=full&effort=best&event=last&hide=ellipses');
     await expect.poll(() => page.locator('.following [data-state=done]').count(), eventually).toBeGreaterThan(0);
     await page.locator('h1').click();
-    // An answer that is on its way may still be shown once.
-    await expect.poll(async () => {
-      await page.keyboard.press('Home');
-      await done();
-      return cells();
-    }, eventually).toBe(36);
+    await page.keyboard.press('Home');
+    await done();
+    expect(await status()).toMatch(/^(?!36 )\d+ quads in [\d.]+ s\.$/); // of the answer, not of what is looked at
+    await expect.poll(cells, eventually).toBe(36); // the numbers follow what is shown
     expect(await page.locator('.counter').innerText()).toMatch(/^0 \//);
     await page.keyboard.press('End');
     await expect.poll(cells, eventually).toBeGreaterThan(100);

@@ -5,7 +5,6 @@ import { operatorKinds, type MeshEvent } from '../../../wasm/events.ts';
 import type { RunResult } from '../../../wasm/protocol.ts';
 import type { Stage } from '../stage/stage.ts';
 import { lastEvent } from '../state/settings.ts';
-import { outcomeOf } from '../stage/words.ts';
 import { h } from '../ui/dom.ts';
 
 export const efforts = ['fast', 'normal', 'best'] as const;
@@ -45,8 +44,11 @@ export class Following {
   private wanted: Question | null = null;
   private busy = false;
   private present: Answer | null = null;
-  /** Of the last answer in the picture: its effort, and the energy that a better one must be below. */
-  private best: { effort: Effort; energy: number } | null = null;
+  /**
+   * Of the last answer in the picture: its effort, how often its cells were diced, the energy that a better one must be
+   * below, as fine as this, and what is told of it. Every effort searches coarse meshes first and dices them as often.
+   */
+  private best: { effort: Effort; dices: number; energy: number; told: string } | null = null;
 
   constructor(
     private readonly stage: Stage,
@@ -124,6 +126,7 @@ export class Following {
     const present: Answer = (this.present = { effort, since: performance.now(), shown: false });
     const waiting: MeshEvent[] = [];
     let energy = Infinity;
+    let dices = 0;
     let reconnecting = false;
     let frame = 0;
     const show = (): void => {
@@ -139,8 +142,10 @@ export class Following {
         waiting.push(event);
         reconnecting ||= operatorKinds.has(event.kind);
         if (event.kind === 'relocation') energy = event.value;
+        if (event.kind === 'dice') ++dices;
       }
-      const better = this.best ? energy < this.best.energy : performance.now() - present.since > patience;
+      const { best } = this;
+      const better = best ? dices >= best.dices && energy < best.energy : performance.now() - present.since > patience;
       if (present.shown || (reconnecting && better)) frame ||= requestAnimationFrame(show);
     };
     this.tell();
@@ -151,10 +156,9 @@ export class Following {
       cancelAnimationFrame(frame);
       if (!result || (!present.shown && (cancelled || !player.following))) return result;
       show();
-      this.best = { effort, energy };
-      stage.run.finish(result);
-      const more = cancelled || effort === stage.settings().options.effort ? '' : ' Improving.';
-      host.setStatus(outcomeOf(result, player.mesh.liveCellCount(), 2) + more);
+      const told = stage.run.finish(result);
+      this.best = { effort, dices, energy, told };
+      if (!cancelled && effort !== stage.settings().options.effort) host.setStatus(`${told} Improving.`);
       return result;
     } finally {
       this.present = null;
@@ -166,6 +170,8 @@ export class Following {
     const { stage, best } = this;
     const shown = (stage.settings().options.effort = best?.effort ?? effort);
     if (!best) return void (await stage.run.forget());
+    this.host.setStatus(best.told);
+    stage.run.receive = () => undefined; // the picture has these events
     if (best.effort !== effort) await stage.workshop.adapt({ ...stage.settings().options, effort: shown });
   }
 

@@ -113,14 +113,16 @@ export class RunControl {
     else void this.start({ show: 1 });
   }
 
-  /** The events that were received are all of them. */
-  finish(result: RunResult): void {
+  /** The events that were received are all of them. Gives the sentence that tells how it ended. */
+  finish(result: RunResult): string {
     this.player.finish();
     const report = JSON.parse(result.report) as { irregular_vertices?: number; mesh?: { cells: number } };
     this.irregular = report.irregular_vertices ?? null;
-    this.host.setStatus(outcomeOf(result, report.mesh?.cells, this.player.mesh.dim));
+    const told = outcomeOf(result, report.mesh?.cells, this.player.mesh.dim);
+    this.host.setStatus(told);
     this.showAwaited(true);
     this.host.done(result);
+    return told;
   }
 
   private settle(): void {

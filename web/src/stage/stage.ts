@@ -249,13 +249,17 @@ export class Stage {
   }
 
   private async measure(): Promise<void> {
-    const { mesh } = this.player;
+    const { player } = this;
+    const { mesh } = player;
+    const { changes } = mesh;
     const { points, cells } = mesh.snapshot();
     const measures = await this.workshop.call('measure', { points, cells, lengths: true }, [
       points.buffer,
       cells.buffer,
     ] as ArrayBuffer[]);
-    if (mesh !== this.player.mesh) return;
+    if (mesh !== player.mesh) return;
+    // While it plays, numbers a moment old are better than none; of a mesh that stands they are its own.
+    if (mesh.changes !== changes && !player.playing && !player.following) return;
     this.measures = measures;
     this.picture.setMeasures(measures);
     this.host.measured(measures);
