@@ -1,7 +1,7 @@
 import { beforeAll, describe, expect, test } from 'vitest';
 import { decodeEvents, type MeshEvent } from '../../wasm/events.ts';
 import type { Core } from '../../wasm/loader.ts';
-import type { Session } from '../../wasm/session.ts';
+import type { MeshArrays, Session } from '../../wasm/session.ts';
 import { ReplayMesh } from '../../web/src/replay/replay_mesh.ts';
 import { load, open, reportOf, runToEnd, write } from './core.ts';
 
@@ -26,8 +26,8 @@ function record(name: string, options: Record<string, string> = {}): Recorded {
 
 describe('a run', () => {
   test('gives the same mesh, bit for bit, every time and however it is sliced', () => {
-    const { session: first } = record('circle2d');
-    const second = open(core, { kind: 'case', name: 'circle2d' });
+    const { session: first } = record('circle2d', { effort: 'fast' });
+    const second = open(core, { kind: 'case', name: 'circle2d' }, undefined, { effort: 'fast' });
     second.begin();
     while (!second.step(1)) second.takeEvents();
     expect(second.mesh()).toEqual(first.mesh());
@@ -103,6 +103,12 @@ describe('its events', () => {
   });
 });
 
+/** Where the vertices are that cells have; a run leaves others behind. */
+function placesOf({ dim, points, cells }: MeshArrays): Set<string> {
+  const live = cells.filter((vertex) => vertex >= 0);
+  return new Set(Array.from(live, (vertex) => String(points.subarray(dim * vertex, dim * (vertex + 1)))));
+}
+
 describe('files', () => {
   for (const name of ['a.mesh', 'a.msh', 'a.vtk', 'a.vtu'])
     test(`${name} holds the adapted mesh exactly`, () => {
@@ -113,8 +119,8 @@ describe('files', () => {
       expect(write(again, 'b.vtu')).toEqual(
         write(open(core, { kind: 'file', name: 'b.vtu', bytes: write(again, 'b.vtu') }), 'b.vtu'),
       );
-      const points = session.mesh().points;
-      expect(new Set(again.mesh().points)).toEqual(new Set(points));
+      expect(again.mesh().points.length).toBe(2 * reportOf(session).mesh.vertices);
+      expect(placesOf(again.mesh())).toEqual(placesOf(session.mesh()));
       session.destroy();
       again.destroy();
     });

@@ -82,8 +82,8 @@ describe('the worker', () => {
   test('pauses, answers meanwhile, and goes on to the same end', async () => {
     const bench = new Bench();
     await bench.call('open', iso2d);
-    const straight = await bench.call('run', { options: {} });
-    const run = bench.call('run', { options: {} });
+    const straight = await bench.call('run', { options: { effort: 'fast' } });
+    const run = bench.call('run', { options: { effort: 'fast' } });
     const before = bench.events;
     await new Promise<void>((resolve) => (bench.onEvents = resolve));
     await bench.call('pause', {});
