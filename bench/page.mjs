@@ -7,6 +7,7 @@ import { extname, join } from 'node:path';
 import { chromium } from 'playwright-core';
 import { gzipSync } from 'node:zlib';
 import { main, root } from '../scripts/run.mjs';
+import { chromium as browserProgram } from '../scripts/setup.mjs';
 
 const site = join(root, 'build', 'site');
 const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm' };
@@ -209,7 +210,7 @@ await main(async () => {
   const server = await serve();
   const address = `http://127.0.0.1:${server.address().port}/`;
   const browser = await chromium.launch({
-    executablePath: process.env.PILLOWMESH_CHROMIUM || '/usr/bin/chromium',
+    executablePath: browserProgram(),
     args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--enable-precise-memory-info'],
   });
   try {

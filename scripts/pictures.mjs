@@ -5,6 +5,7 @@ import { join } from 'node:path';
 import { chromium } from 'playwright-core';
 import { build, preview } from 'vite';
 import { main, root } from './run.mjs';
+import { chromium as browserProgram } from './setup.mjs';
 
 /** What each picture shows: the state as a link, the size in CSS pixels, and which part of the page. */
 const pictures = [
@@ -86,7 +87,7 @@ await main(async () => {
   await build(site);
   const server = await preview({ ...site, preview: { port: 0, host: '127.0.0.1' } });
   const browser = await chromium.launch({
-    executablePath: process.env.PILLOWMESH_CHROMIUM || '/usr/bin/chromium',
+    executablePath: browserProgram(),
     args: browserArguments,
   });
   try {
