@@ -1,6 +1,7 @@
 // How each kind of suite is run, and how its tests are counted: always from the runner's machine-readable output.
-// `place` is where and how: { folder: of the reports, to: a file descriptor for what is printed, jobs: at a time }.
-import { existsSync, readFileSync } from 'node:fs';
+// `place` is where and how: { folder: of the reports, to: a file descriptor for what is printed, jobs: at a time,
+// part: { number, of } where a suite's files are shared out }.
+import { existsSync, readFileSync, readdirSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { root, start } from './run.mjs';
 import { chromium } from './setup.mjs';
@@ -29,12 +30,31 @@ export async function catch2(name, { folder, to, jobs }) {
 /** No colour codes in a log file. */
 const colours = process.stdout.isTTY ? {} : { NO_COLOR: '1' };
 
-/** A project of vitest.config.ts. */
-export async function vitest(name, { folder, to, jobs }) {
-  const report = join(folder, `${name}.json`);
+/** The test files of a suite that are one of its parts: the largest first, each to the part that has least so far. */
+function filesOf(name, { number, of }) {
+  const folder = join('tests', name);
+  const files = readdirSync(join(root, folder)).filter((file) => file.endsWith('.test.ts'))
+    .map((file) => ({ path: join(folder, file), bytes: statSync(join(root, folder, file)).size }))
+    .sort((a, b) => b.bytes - a.bytes || (a.path < b.path ? -1 : 1));
+  const parts = Array.from({ length: of }, () => ({ bytes: 0, paths: [] }));
+  for (const { path, bytes } of files) {
+    const least = parts.reduce((a, b) => (b.bytes < a.bytes ? b : a));
+    least.bytes += bytes;
+    least.paths.push(path);
+  }
+  return parts[number - 1].paths;
+}
+
+/** A project of vitest.config.ts; what its global setup would build is there. */
+export async function vitest(name, { folder, to, jobs, part }) {
+  const report = join(folder, `${name}${part?.number ?? ''}.json`);
   const program = join(root, 'node_modules', 'vitest', 'vitest.mjs');
+  const files = part ? filesOf(name, part) : [];
   const ok = await start(process.execPath, [program, 'run', '--project', name, '--reporter=default', '--reporter=json',
-    `--outputFile=${report}`], { to, env: { PILLOWMESH_CHROMIUM: chromium(), PILLOWMESH_JOBS: String(jobs), CI: '1', ...colours } });
+    `--outputFile=${report}`, ...files], {
+    to,
+    env: { PILLOWMESH_CHROMIUM: chromium(), PILLOWMESH_JOBS: String(jobs), PILLOWMESH_SITE: 'built', CI: '1', ...colours },
+  });
   if (!existsSync(report)) return result(0, 0, ok);
   const { numPassedTests, numFailedTests } = JSON.parse(readFileSync(report, 'utf8'));
   return result(numPassedTests, numFailedTests, ok);

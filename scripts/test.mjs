@@ -5,15 +5,15 @@ import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
 import { build } from './build.mjs';
 import { inLanes } from './lanes.mjs';
-import { Failure, root } from './run.mjs';
+import { Failure, root, start as run } from './run.mjs';
 import { setup } from './setup.mjs';
 import { catch2, typescript, unittest, vitest } from './suites.mjs';
 
-/** Each suite with the builds that it looks at, those first that take long. */
+/** Each suite with the builds that it looks at, those first that take long; in parts, which may run side by side. */
 const suites = {
-  web: { run: vitest, needs: ['wasm'] },
+  package: { run: vitest, needs: ['release', 'site'] },
   core: { run: catch2, needs: ['release'] },
-  package: { run: vitest, needs: ['release', 'wasm'] },
+  web: { run: vitest, needs: ['wasm', 'site'], parts: 3 },
   parity: { run: vitest, needs: ['release', 'wasm'] },
   cli: { run: vitest, needs: ['release'] },
   wasm: { run: vitest, needs: ['wasm'] },
@@ -42,34 +42,47 @@ const since = (start) => (Date.now() - start) / 1000;
 const lanes = Math.min(2, availableParallelism());
 const jobs = Math.ceil(availableParallelism() / lanes);
 
-async function buildPreset(preset) {
+async function make(name) {
   const start = Date.now();
-  await build(preset, { jobs });
-  console.log(`Built ${preset} in ${since(start).toFixed(1)} s`);
+  // In a process of its own: Vite is loaded and freed there, and is not installed before setup has run.
+  if (name !== 'site') await build(name, { jobs });
+  else if (!(await run(process.execPath, ['scripts/site.mjs']))) throw new Failure('building the site failed (see above)');
+  console.log(`Built ${name} in ${since(start).toFixed(1)} s`);
 }
 
 /** What a suite prints is shown when it has ended, so that two at a time can be read. */
-async function runSuite(name) {
+async function runSuite(name, part) {
   const start = Date.now();
-  const log = join(results, `${name}.log`);
+  const title = part ? `${name}${part.number}` : name;
+  const log = join(results, `${title}.log`);
   const to = openSync(log, 'w');
-  console.log(`Running ${name}; what it prints goes to build/test-results/${name}.log first`);
-  const { count, note } = await suites[name].run(name, { folder: results, to, jobs });
+  console.log(`Running ${title}; what it prints goes to build/test-results/${title}.log first`);
+  const { count, note } = await suites[name].run(name, { folder: results, to, jobs, part });
   closeSync(to);
-  console.log(`\n=== ${name}\n${readFileSync(log, 'utf8')}`);
+  console.log(`\n=== ${title}\n${readFileSync(log, 'utf8')}`);
   // A runner that fails without a failed test (a crash, a file that does not load) is a failure too.
   if (count.passed + count.failed === 0) count.failed = 1;
-  if (note) console.error(`${name}: ${note}`);
-  rows.push({ name, ...count, seconds: since(start) });
+  if (note) console.error(`${title}: ${note}`);
+  rows.push({ name: title, ...count, seconds: since(start) });
+}
+
+/** A suite's tasks for the lanes, one for each part. */
+function tasksOf(name) {
+  const { needs, parts } = suites[name];
+  if (!parts) return [{ name, needs, run: () => runSuite(name) }];
+  return Array.from({ length: parts }, (_, i) => {
+    const part = { number: i + 1, of: parts };
+    return { name: `${name}${part.number}`, needs, run: () => runSuite(name, part) };
+  });
 }
 
 try {
   setup('test');
   const needed = new Set(names.flatMap((name) => suites[name].needs));
-  const builds = ['release', 'wasm'].filter((preset) => needed.has(preset));
+  const builds = { release: [], wasm: [], site: ['wasm'] };
   const tasks = [
-    ...builds.map((preset) => ({ name: preset, needs: [], run: () => buildPreset(preset) })),
-    ...names.map((name) => ({ name, needs: suites[name].needs, run: () => runSuite(name) })),
+    ...Object.entries(builds).filter(([name]) => needed.has(name)).map(([name, needs]) => ({ name, needs, run: () => make(name) })),
+    ...names.flatMap(tasksOf),
   ];
   await inLanes(tasks, lanes, (name, error) => {
     if (error !== null && !(error instanceof Failure)) throw error;
