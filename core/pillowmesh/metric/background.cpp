@@ -90,6 +90,11 @@ void Background::divide(Index node, double x, double y, double half_x, double ha
   const Index first = static_cast<Index>(nodes_.size());
   nodes_.resize(nodes_.size() + 4);
   make_children(first, x, y, half_x, half_y);
+  // What was a leaf was never handed out: the last child takes its place.
+  Node& last = nodes_[first + 3];
+  leaves_[~nodes_[node].child] = leaves_.back();
+  leaves_.pop_back();
+  last.child = nodes_[node].child;
   nodes_[node].child = first;
 }
 
@@ -140,6 +145,8 @@ void Background::make_children(Index first, double x, double y, double half_x, d
     const bool rough = !good && std::max(half_x, half_y) > options_.smallest * size;
     if (!good && !rough) make_bilinear(leaf.k);
     nodes_[first + k] = {~static_cast<Index>(leaves_.size()), static_cast<std::uint8_t>(rough)};
+    // Grown by a quarter: this is a large part of the memory of full adaptation.
+    if (leaves_.size() == leaves_.capacity()) leaves_.reserve(leaves_.size() + std::max<std::size_t>(leaves_.size() / 4, 64));
     leaves_.push_back(leaf);
   }
 }

@@ -17,6 +17,7 @@ void QuadRelocator::measure_all(const Weights& weights) {
   edges_.resize(mesh_.cells.size());
   energy_.assign(mesh_.cells.size(), 0.0);
   begin();
+  std::fill(cell_stamp_.begin(), cell_stamp_.end(), stamp_);  // nothing here is taken back
   for (VertexId v = 0; v < mesh_.vertex_count(); ++v)
     if (mesh_.vertex_cell[v] != kNone) size_[v] = jet_of(background_.jet(mesh_.points[v], leaf_[v]));
   for (CellId c = 0; c < mesh_.cell_count(); ++c)
