@@ -5,6 +5,7 @@
 #include "../catch.h"
 #include "checks.h"
 #include "meshes.h"
+#include "pillowmesh/io/io.h"
 #include "pillowmesh/mesh/validate.h"
 
 namespace adapter_test {
@@ -81,6 +82,25 @@ TEST_CASE("every mesh of every run is valid, and refinement ends with all length
       CHECK(checks::euler(adapter.mesh()) == checks::euler(mesh));
     }
   });
+}
+
+TEST_CASE("a run whose last smoothing leaves no edge too long has met its limit, though layers were refused") {
+  const auto read = read_mesh_file(PILLOWMESH_TEST_DATA "/lshape_v2.msh");
+  REQUIRE(read.ok());
+  const auto& mesh = std::get<Mesh<2>>(*read);
+  for (const char* text : {"h1 = 0.4*(0.0268 + 0.3085*abs(y - 0.9027)); h2 = 0.4*0.1653; theta = 1.149 - 1.8958*x",
+                           "d = sqrt((x - 0.6428)^2 + (y - 0.5231)^2); h1 = 0.4*(0.0425 + abs(d - 0.3319)*0.3651);"
+                           "h2 = 0.4*(0.0519 + abs(d - .3)*0.1208); theta = atan2(y, x)"}) {
+    INFO(text);
+    const auto field = formula<2>(text);
+    AdaptOptions options;
+    options.method = Method::paper;
+    Adapter<2> adapter(mesh, field, options);
+    CHECK(adapter.run().message == "");
+    CHECK(adapter.operations().at("refused_layers") > 0);
+    CHECK(checks::longest_edge(adapter.mesh(), field) <= 2.0 * (1 + checks::kTagging));
+    CHECK(validate(adapter.mesh()).ok());
+  }
 }
 
 TEST_CASE("patches and groups survive, and boundary vertices stay on the domain's boundary") {

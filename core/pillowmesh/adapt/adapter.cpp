@@ -305,11 +305,15 @@ struct Adapter<Dim>::State {
     relocator.reset();
     stage = next;
     if (next != Stage::done) return;
-    // The last smoothing may have made edges too long again: then once more from step 1, a few times at the most.
-    if (moved && outcome.ok() && rounds++ < 3) {
+    // The last smoothing may have made edges too long again: then once more from step 1, a few times at the most. Or it has
+    // made room for layers that were refused, or what they were for shorter.
+    if (moved && rounds++ < (outcome.ok() ? 3 : 1)) {
+      outcome = {};
       smoothed = true;
       inserted = 1;
       stage = Stage::tag;
+    } else if (moved && !outcome.ok() && longest_edge(mesh, field) <= requested * (1.0 + kLongestEdgeTolerance)) {
+      outcome = {};
     }
     if (Dim == 3 && moved && continuation.steep()) stage = Stage::polish;
     if (stage == Stage::done) report_progress("done");
