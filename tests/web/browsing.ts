@@ -78,8 +78,13 @@ export async function visit(hash = '', options?: BrowserContextOptions): Promise
 /** A part of the state that the address holds. */
 export const part = (name: string): string | null => new URLSearchParams(new URL(page.url()).hash.slice(1)).get(name);
 
-/** The picture, when it has come to rest. */
+/** The picture, when it has come to rest: twice the same. */
 export async function pictureNow(): Promise<Buffer> {
-  await page.waitForTimeout(250);
-  return page.locator('.picture canvas').screenshot();
+  const picture = page.locator('.picture canvas');
+  for (let last = await picture.screenshot(); ; ) {
+    await page.waitForTimeout(150);
+    const now = await picture.screenshot();
+    if (now.equals(last)) return now;
+    last = now;
+  }
 }

@@ -95,7 +95,7 @@ test('on paper there is the picture and the numbers, without controls', async ()
 });
 
 test('a lost graphics context is told, and comes back', async () => {
-  await visit('#case=iso2d');
+  await visit('#case=iso2d&hide=ellipses');
   const before = await pictureNow();
   await page.evaluate(() => {
     const gl = document.querySelector<HTMLCanvasElement>('.picture canvas')!.getContext('webgl2')!;

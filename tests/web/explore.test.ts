@@ -87,7 +87,6 @@ describe('picking', () => {
     await page.locator('h1').click();
     await page.keyboard.press('End');
     await expect.poll(() => page.locator('.facts dd').first().innerText(), eventually).toMatch(/^1,/);
-    await page.waitForTimeout(500);
     await page.keyboard.press('w');
     await expect.poll(() => part('quality')).toMatch(/^eta:0,0\./);
     expect(await page.locator('.pointed').innerText()).toMatch(/Sheets of/);
@@ -197,8 +196,7 @@ describe('comparing', () => {
     const wipe = page.getByRole('slider', { name: 'Wipe between' });
     await wipe.fill('0');
     expect(await page.locator('.over').evaluate((e) => getComputedStyle(e).clipPath)).toContain('0%');
-    await page.waitForTimeout(400);
-    expect((await page.locator('.stage').screenshot()).equals(alone)).toBe(false);
+    await expect.poll(async () => (await page.locator('.stage').screenshot()).equals(alone), eventually).toBe(false);
     await wipe.fill('55');
     await page.mouse.move(670, 350);
     await page.mouse.wheel(0, -500);
@@ -219,24 +217,26 @@ describe('undo and redo', () => {
     await expect.poll(() => part('metric'), eventually).toBe('h = 0.5');
     await page.locator('#case').selectOption('circle2d');
     await expect.poll(() => part('case'), eventually).toBe('circle2d');
-    await page.waitForTimeout(400);
     await page.getByRole('button', { name: 'Undo' }).click();
     await expect.poll(() => page.locator('#formula').inputValue(), eventually).toBe('h = 0.5');
-    await page.waitForTimeout(400);
+    /** The link follows a little later: then the state has settled. */
+    const linked = (name: string, value: string | null) => expect.poll(() => part(name), eventually).toBe(value);
+    await linked('metric', 'h = 0.5');
     await page.locator('h1').click();
     await page.keyboard.press('Control+z');
     await expect.poll(() => page.locator('#formula').inputValue(), eventually).toContain('h2');
-    await page.waitForTimeout(400);
+    await linked('metric', null);
     await page.keyboard.press('Control+z');
     await expect.poll(() => page.getByLabel('Colour of cells').inputValue(), eventually).toBe('plain');
-    await page.waitForTimeout(400);
+    await linked('colour', null);
     await page.keyboard.press('Control+y');
     await expect.poll(() => page.getByLabel('Colour of cells').inputValue(), eventually).toBe('shape');
-    for (let i = 0; i < 2; ++i) {
-      await page.waitForTimeout(400);
-      await page.keyboard.press('Control+Shift+z');
-    }
+    await linked('colour', 'shape');
+    await page.keyboard.press('Control+Shift+z');
+    await linked('metric', 'h = 0.5');
+    await page.keyboard.press('Control+Shift+z');
     await expect.poll(() => page.locator('#case').inputValue(), eventually).toBe('circle2d');
+    await linked('case', 'circle2d');
     await expect.poll(() => page.getByRole('button', { name: 'Redo' }).getAttribute('aria-disabled')).toBe('true');
     expect(complaints).toEqual([]);
   });

@@ -213,13 +213,16 @@ describe('looking inside', () => {
     await visit('#case=linear3d');
     await page.locator('.start').evaluate((button) => button.remove());
     await expect.poll(() => page.getByRole('button', { name: 'Metric' }).isVisible()).toBe(true);
-    await page.waitForTimeout(600);
+    const toggle = (): Promise<void> => page.getByRole('button', { name: 'Metric' }).click();
+    await toggle();
+    const without = await pictureNow();
+    await toggle();
+    await expect.poll(async () => (await pictureNow()).equals(without), eventually).toBe(false); // once they are sampled
     const with_ = await pictureNow();
     await page.screenshot({ path: join(screenshots, 'ellipsoids.png') });
-    await page.getByRole('button', { name: 'Metric' }).click();
-    const without = await pictureNow();
-    expect(without.equals(with_)).toBe(false);
-    await page.getByRole('button', { name: 'Metric' }).click();
+    await toggle();
+    expect((await pictureNow()).equals(without)).toBe(true);
+    await toggle();
     expect((await pictureNow()).equals(with_)).toBe(true);
     expect(complaints).toEqual([]);
   });

@@ -112,8 +112,7 @@ describe('buttons beside a figure', () => {
     await expect.poll(() => position('f8'), eventually).toBeGreaterThan(10);
     const whole = await page.locator('#f8').screenshot();
     await page.getByRole('button', { name: 'cut', exact: true }).click();
-    await page.waitForTimeout(400);
-    expect((await page.locator('#f8').screenshot()).equals(whole)).toBe(false);
+    await expect.poll(async () => (await page.locator('#f8').screenshot()).equals(whole), eventually).toBe(false);
   });
 });
 

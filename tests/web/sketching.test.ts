@@ -13,6 +13,12 @@ interface Axe {
 }
 const cells = async (): Promise<number> => Number((await page.locator('.facts dd').first().innerText()).replace(/,/g, ''));
 const status = (): Promise<string> => page.locator('.status').innerText();
+/** Cells of the answer, when the numbers have followed what is shown. */
+async function counted(): Promise<number> {
+  const told = Number(/^[\d,]+/.exec(await status())![0].replace(/,/g, ''));
+  await expect.poll(cells, eventually).toBe(told);
+  return told;
+}
 const done = () => expect.poll(() => page.locator('.following').isHidden(), eventually).toBe(true);
 
 describe('sketching', () => {
@@ -43,7 +49,7 @@ describe('sketching', () => {
     }
     await done();
     expect(await status()).toMatch(/^\d+ quads in [\d.]+ s\.$/);
-    const one = await cells();
+    const one = await counted();
 
     await page.getByLabel('Effort').selectOption('fast'); // from here on the first answer is the last
     await done();
@@ -53,8 +59,7 @@ describe('sketching', () => {
     await page.mouse.up();
     await expect.poll(() => part('sketch')?.split(';').length, eventually).toBe(2);
     await done();
-    await page.waitForTimeout(400);
-    const two = await cells();
+    const two = await counted();
     expect(two).not.toBe(one);
     await page.screenshot({ path: join(screenshots, 'sketch.png') });
     const { hash } = new URL(page.url());
