@@ -1,5 +1,7 @@
 #include "pillowmesh/adapt/local_search.h"
 
+#include <algorithm>
+
 #include "pillowmesh/coarsen/boundary_collapse.h"
 #include "pillowmesh/coarsen/chord_collapse.h"
 #include "pillowmesh/coarsen/diagonal_collapse.h"
@@ -13,7 +15,7 @@ namespace {
 
 constexpr int kMostExcess = 2;        ///< changes that make more irregularity than this hardly ever pay
 constexpr int kMostExcessOpened = 4;  ///< an opening among regular vertices makes two dislocations: else none would come there
-constexpr int kRefusedAtLarge = 3;  ///< rows that the whole mesh was relocated for in vain
+constexpr int kRefusedAtLarge = 3;    ///< rows that the whole mesh was relocated for in vain
 constexpr double kNoise = 0.001;      ///< a gain smaller than this is none
 constexpr double kChordGain = 0.02;   ///< expected of a chord to be tried, for each of its cells
 constexpr double kPoorCell = 0.1;     ///< energy above which a cell is looked at
@@ -27,6 +29,10 @@ constexpr double kCellBonus = 0.15;
 constexpr double kLeastRotated = 0.8, kLeastCollapsed = 1.0, kLeastOpened = 1.6;
 
 int square(int a) { return a * a; }
+
+/// Rows that the whole mesh is relocated for: so few that large meshes, made from coarse ones that had theirs, take no
+/// longer for a cell.
+int most_attempts_at_large(CellId cells) { return std::clamp(20'000 / std::max(cells, 1), 4, 12); }
 
 }  // namespace
 
@@ -213,7 +219,10 @@ bool LocalSearch::attempt_chord(Operator op) {
   };
   if (!plan()) return false;
   if (trial_.attempt(op, -kNoise)) return true;
-  if (temperature_ > 0.0 || refused_at_large_ == kRefusedAtLarge || !plan()) return false;
+  const bool enough =
+      refused_at_large_ == kRefusedAtLarge || attempts_at_large_ >= most_attempts_at_large(mesh_.cell_count());
+  if (temperature_ > 0.0 || enough || !plan()) return false;
+  ++attempts_at_large_;
   if (trial_.attempt_at_large(op, -kNoise)) return true;
   ++refused_at_large_;
   return false;

@@ -48,6 +48,7 @@ class LocalSearch {
   std::vector<Index> looked_;  ///< per cell: when its candidates were last tried
   std::vector<std::uint8_t> marks_;
   Chord chord_, across_;
+  int attempts_at_large_ = 0;  ///< rows that the whole mesh was relocated for
   int refused_at_large_ = 0;
 };
 
