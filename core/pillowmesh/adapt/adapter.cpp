@@ -198,7 +198,10 @@ struct Adapter<Dim>::State {
 
   /// Where the threshold is lower than asked for, edges above it are no failure.
   [[nodiscard]] bool meets_request() const {
-    return options.threshold < requested && longest_edge(mesh, target) <= requested * (1.0 + kLongestEdgeTolerance);
+    return options.threshold < requested && short_enough();
+  }
+  [[nodiscard]] bool short_enough() const {
+    return longest_edge(mesh, target) <= requested * (1.0 + kLongestEdgeTolerance);
   }
 
   /// Steps 2 and 3: form a layer, shrink it, connect it. Step 4 is the repetition until no tag is left.
@@ -312,7 +315,7 @@ struct Adapter<Dim>::State {
       smoothed = true;
       inserted = 1;
       stage = Stage::tag;
-    } else if (moved && !outcome.ok() && longest_edge(mesh, field) <= requested * (1.0 + kLongestEdgeTolerance)) {
+    } else if (moved && !outcome.ok() && short_enough()) {
       outcome = {};
     }
     if (Dim == 3 && moved && continuation.steep()) stage = Stage::polish;
