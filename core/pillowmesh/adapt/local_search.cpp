@@ -24,9 +24,8 @@ constexpr double kPoorCell = 0.1;     ///< energy above which a cell is looked a
 /// the other must gain.
 constexpr double kCellBonus = 0.15;
 
-/// What the cells of a change have to cost, together with what it may cost, for it to be tried: of those that cost less 80 to
-/// 90 % are refused after all, and only some 5 % of those that would be kept are among them.
-constexpr double kLeastRotated = 0.8, kLeastCollapsed = 1.0, kLeastOpened = 1.6;
+/// Logarithm of the odds below which a change is not tried, when hot and when cold.
+constexpr double kLeastOdds = -2.5, kLeastOddsCold = -3.5;
 
 int square(int a) { return a * a; }
 
@@ -40,12 +39,13 @@ void LocalSearch::begin_pass(double temperature) {
   temperature_ = temperature;
   next_ = 0;
   kept_ = 0;
+  outlook_.forget();
 }
 
 bool LocalSearch::interesting(CellId c) {
   if (trial_.relocator.energy(c) > kPoorCell) return true;
   for (const VertexId v : mesh_.cells[c])
-    if (trial_.valence(v) != trial_.ideal(v)) return true;
+    if (outlook_.valence(v) != trial_.ideal(v)) return true;
   return false;
 }
 
@@ -54,14 +54,9 @@ double LocalSearch::allowance(double bonus) {
   return (temperature_ > 0 ? temperature_ * random_.exponential() : 0.0) - kNoise + bonus;
 }
 
-/// What is planned; false without a trial where its cells are so good that it would be refused.
+bool LocalSearch::hopeless(double odds) const { return odds < (temperature_ > 0.0 ? kLeastOdds : kLeastOddsCold); }
+
 bool LocalSearch::attempt(Operator op, double allowed) {
-  const double least = op == Operator::collapse ? kLeastCollapsed : (op == Operator::open ? kLeastOpened : 0.0);
-  if (least > 0.0) {
-    double cost = allowed;
-    for (const CellId c : trial_.cavity.old_cells) cost += trial_.relocator.energy(c);
-    if (cost < least) return false;
-  }
   if (!trial_.attempt(op, allowed)) return false;
   ++kept_;
   return true;
@@ -96,14 +91,16 @@ void LocalSearch::try_rotations(CellId c) {
   for (int side = 0; side < 4 && mesh_.alive(c); ++side) {
     const HalfFacetId twin = twin_of_side(mesh_, c, side);
     if (twin < 0 || mesh_.cell_of(twin) > c) continue;
-    const double cost = trial_.relocator.energy(c) + trial_.relocator.energy(mesh_.cell_of(twin));
+    const CellId n = mesh_.cell_of(twin);
+    const int j = kFacetSide[mesh_.facet_of(twin)];
+    const VertexId v[] = {around(mesh_, c, side),     around(mesh_, c, side + 1), around(mesh_, c, side + 2),
+                          around(mesh_, c, side + 3), around(mesh_, n, j + 2),    around(mesh_, n, j + 3)};
     for (int way = 0; way < 2; ++way) {
-      const double allowed = allowance(0.0);
-      if (cost + allowed < kLeastRotated) continue;
-      if (!plan_rotation(mesh_, c, side, way, trial_.cavity)) continue;
-      const auto& v = trial_.cavity.around;
       const VertexId from = way == 0 ? v[2] : v[3], to = way == 0 ? v[4] : v[5];
-      if (trial_.excess(v[0], -1) + trial_.excess(v[1], -1) + trial_.excess(from, 1) + trial_.excess(to, 1) > kMostExcess)
+      const int excess = outlook_.excess(v[0], -1) + outlook_.excess(v[1], -1) + outlook_.excess(from, 1) + outlook_.excess(to, 1);
+      if (excess > kMostExcess) continue;
+      const double allowed = allowance(0.0);
+      if (hopeless(outlook_.rotation(c, side, n, j, way, excess, allowed)) || !plan_rotation(mesh_, c, side, way, trial_.cavity))
         continue;
       if (attempt(Operator::rotate, allowed)) break;
     }
@@ -116,12 +113,13 @@ void LocalSearch::try_collapses(CellId c) {
                    y = around(mesh_, c, i + 3);
     const bool inside = mesh_.support[keep].dim == 2;
     if (mesh_.support[drop].dim != 2 || (inside && i >= 2)) continue;  // the other way round is the same
-    const int a = trial_.valence(drop), b = trial_.valence(keep), ideal = trial_.ideal(keep);
-    if (square(a + b - 2 - ideal) - square(a - 4) - square(b - ideal) + trial_.excess(x, -1) + trial_.excess(y, -1) >
-        kMostExcess)
-      continue;
-    if (!plan_diagonal_collapse(mesh_, c, i, trial_.cavity)) continue;
-    if (attempt(Operator::collapse, allowance(-kCellBonus))) return;
+    const int a = outlook_.valence(drop), b = outlook_.valence(keep), ideal = trial_.ideal(keep);
+    const int excess =
+        square(a + b - 2 - ideal) - square(a - 4) - square(b - ideal) + outlook_.excess(x, -1) + outlook_.excess(y, -1);
+    if (excess > kMostExcess) continue;
+    const double allowed = allowance(-kCellBonus);
+    if (hopeless(outlook_.collapse(c, i, excess, allowed)) || !plan_diagonal_collapse(mesh_, c, i, trial_.cavity)) continue;
+    if (attempt(Operator::collapse, allowed)) return;
   }
 }
 
@@ -139,11 +137,14 @@ void LocalSearch::try_openings(CellId c) {
         const int last = first + turned;
         const VertexId a = around(mesh_, star.cell[first], star.place[first] + 1);
         const VertexId b = around(mesh_, star.cell[last % n], star.place[last % n] + 1);
-        if (square(n - turned - 3) + square(turned - 3) - square(n - 4) + trial_.excess(a, 1) + trial_.excess(b, 1) >
-            kMostExcessOpened)
+        const int excess =
+            square(n - turned - 3) + square(turned - 3) - square(n - 4) + outlook_.excess(a, 1) + outlook_.excess(b, 1);
+        if (excess > kMostExcessOpened) continue;
+        const double allowed = allowance(kCellBonus);
+        if (hopeless(outlook_.opening(star, first, last, excess, allowed)) ||
+            !plan_opening(mesh_, v, star, first, last, trial_.cavity))
           continue;
-        if (!plan_opening(mesh_, v, star, first, last, trial_.cavity)) continue;
-        opened = attempt(Operator::open, allowance(kCellBonus));
+        opened = attempt(Operator::open, allowed);
       }
   }
 }
@@ -155,9 +156,9 @@ void LocalSearch::try_boundary_collapses(CellId c) {
     OrderedStar star;
     if (twin_of_side(mesh_, c, i) >= 0 || mesh_.support[v].dim != 1 || !find_star(mesh_, v, star) || star.count != 2) continue;
     const VertexId a = around(mesh_, star.cell[1], star.place[1] + 3), b = around(mesh_, c, i + 1), p = around(mesh_, c, i + 3);
-    const int ideal = std::min(trial_.ideal(a), trial_.ideal(b)), n_a = trial_.valence(a), n_b = trial_.valence(b);
+    const int ideal = std::min(trial_.ideal(a), trial_.ideal(b)), n_a = outlook_.valence(a), n_b = outlook_.valence(b);
     if (square(n_a + n_b - 1 - ideal) - square(n_a - trial_.ideal(a)) - square(n_b - trial_.ideal(b)) +
-            trial_.excess(p, -1) >
+            outlook_.excess(p, -1) >
         kMostExcess)
       continue;
     if (!plan_boundary_collapse(mesh_, v, trial_.cavity)) continue;
@@ -177,7 +178,7 @@ void LocalSearch::try_boundary_openings(CellId c) {
     for (int turned = 0; turned < (dim == 0 ? 2 : 1); ++turned) {
       const int ideal_a = dim == 0 && turned == 0 ? trial_.ideal(v) : 2, ideal_b = dim == 0 && turned == 1 ? trial_.ideal(v) : 2;
       if (square(after - ideal_a) + square(before - ideal_b) - square(star.count - trial_.ideal(v)) +
-              trial_.excess(around(mesh_, c, i + 2), 1) >
+              outlook_.excess(around(mesh_, c, i + 2), 1) >
           kMostExcess)
         continue;
       if (!plan_boundary_opening(mesh_, c, i, turned == 1, trial_.cavity)) continue;

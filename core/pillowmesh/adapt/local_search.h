@@ -1,6 +1,7 @@
 // Which changes of topology are tried, and in what order: passes over the cells of a quad mesh.
 #pragma once
 
+#include "pillowmesh/adapt/outlook.h"
 #include "pillowmesh/adapt/random.h"
 #include "pillowmesh/adapt/trial.h"
 #include "pillowmesh/mesh/chord.h"
@@ -14,7 +15,7 @@ namespace pillowmesh {
 class LocalSearch {
  public:
   /// Must not outlive `trial`.
-  LocalSearch(Mesh<2>& mesh, Trial& trial, std::uint64_t seed) : mesh_(mesh), trial_(trial), random_(seed) {}
+  LocalSearch(Mesh<2>& mesh, Trial& trial, std::uint64_t seed) : mesh_(mesh), trial_(trial), outlook_(mesh, trial), random_(seed) {}
 
   /// T in units of one ideal cell. A pass is over all cells that there are when it comes to them.
   void begin_pass(double temperature);
@@ -30,6 +31,7 @@ class LocalSearch {
  private:
   bool interesting(CellId c);
   double allowance(double bonus);
+  [[nodiscard]] bool hopeless(double odds) const;
   bool attempt(Operator op, double allowed);
   double chord_gain();
   bool attempt_chord(Operator op);
@@ -41,6 +43,7 @@ class LocalSearch {
 
   Mesh<2>& mesh_;
   Trial& trial_;
+  Outlook outlook_;
   Random random_;
   double temperature_ = 0.0;
   CellId next_ = 0;

@@ -10,23 +10,35 @@ namespace {
 constexpr std::int64_t kMovesPerStep = 4000;
 constexpr int kRelaxSweeps = 5;
 
-/// Of a mesh that layers have made, or that was given, and of one that was made by dicing a good one. Coarse meshes are not
-/// polished: the finer ones change shapes anyway.
+/// Rows come and go in cold passes only: those that end on the boundary can be joined there.
+constexpr int kNoRows = 1 << 20;
+
+/// Of a coarse mesh that will be diced, of one that was diced, and of one that layers have made, or that was given. Coarse
+/// meshes are not polished: the finer ones change shapes anyway.
 Budget budget_of(Effort effort, bool diced, int halvings) {
-  const int polish = halvings > 0 ? 0 : 1;
+  const bool coarse = halvings > 0;
   switch (effort) {
     case Effort::fast:
-      return diced ? Budget{0, 0, 0, 1, halvings > 0 ? 1 : 0, 0, 0, 4} : Budget{6, 0.3, 0.1, 3, 2, 0, 4, 2};
+      if (diced) return {0, 0, 0, 1, coarse ? 1 : 0, 0, 0, 4};
+      return {6, 0.3, 0.1, 3, 2, 0, 4, 2};
     case Effort::normal:
-      return diced ? Budget{30, 0.4, 0.08, 10, 3, 2 * polish, 4, 20} : Budget{30, 0.5, 0.06, 8, 4, 2 * polish, 20, 20};
+      if (diced) return {30, 0.4, 0.08, 10, 3, coarse ? 0 : 2, 4, 20};
+      return {30, 0.5, 0.06, 8, 4, coarse ? 0 : 2, 20, 20};
     case Effort::best: break;
   }
-  return diced ? Budget{110, 0.4, 0.1, 20, 20, 6 * polish, 20, 100} : Budget{60, 0.6, 0.05, 20, 20, 6 * polish, 40, 100};
+  if (coarse) return {15, 0.6, 0.05, kNoRows, 20, 0, 40, 100};
+  if (diced) return {250, 0.4, 0.12, kNoRows, 20, 6, 20, 100};
+  return {60, 0.6, 0.05, kNoRows, 20, 6, 40, 100};
 }
 
-/// Weight of alignment in the energy when the option asks for all of it. In coarse meshes the directions of the metric turn
-/// more from cell to cell: there it draws less, and weighs more.
+/// Weight of alignment in the energy when the option asks for all of it, to begin with. In coarse meshes the directions of
+/// the metric turn more from cell to cell: there it draws less, and weighs more.
 constexpr double kAlignment = 0.4, kCoarseAlignment = 0.6;
+/// Afterwards it is kAlignment times the cube of the misalignment that is left, in units of this: where the metric turns
+/// little, alignment is had for less, and where it turns much, it is not given up.
+constexpr double kMisalignment = 0.11;
+constexpr double kLeastAlignment = 0.05, kMostAlignment = 1.5;
+constexpr int kPassesToBalance = 5;
 
 Background background_of(const Mesh<2>& mesh, const MetricField<2>& field) {
   Point<2> low = mesh.points[0], high = low;
@@ -100,14 +112,24 @@ void Schedule::next_pass() {
     end_polish_round();
     return;
   }
+  if (pass_ <= budget_.hot_passes && pass_ % kPassesToBalance == 0) balance_alignment();
   if (pass_ == budget_.hot_passes) trial_.touch_all();
   search_.begin_pass(temperature(pass_));
   stage_ = Stage::pass;
 }
 
+/// A third of the way, in logarithms, to the weight that goes with the misalignment of now.
+void Schedule::balance_alignment() {
+  const double left = pass_ > 0 && options_.align > 0.0 ? trial_.relocator.misalignment() / kMisalignment : 0.0;
+  if (left == 0.0) return;  // isotropic, or not asked for
+  const double weight = options_.align * std::clamp(kAlignment * left * left * left, kLeastAlignment, kMostAlignment);
+  alignment_ *= portable::pow(weight / alignment_, 1.0 / 3.0);
+  trial_.relocator.set_alignment(alignment_);
+}
+
 void Schedule::end_pass() {
   const bool cold = pass_ >= budget_.hot_passes;
-  const bool rows = cold || pass_ % budget_.rows_every == 0;
+  const bool rows = cold || (pass_ + 1) % budget_.rows_every == 0;
   const std::int64_t chords = rows ? search_.chord_pass() : 0;
   ++pass_;
   if (cold && search_.kept() + chords == 0) pass_ = budget_.hot_passes + budget_.cold_passes;

@@ -44,6 +44,7 @@ class Schedule {
   void end_sweep();
   bool descend(int most);
   void next_pass();
+  void balance_alignment();
   void end_pass();
   void end_polish_round();
   [[nodiscard]] double temperature(int pass) const;
@@ -56,7 +57,7 @@ class Schedule {
   std::map<std::string, std::int64_t>& operations_;
   int iteration_;
   Budget budget_;
-  double alignment_ = 0.5;
+  double alignment_ = 0.0;  ///< weight in the energy
   Background background_;
   Trial trial_;
   LocalSearch search_;

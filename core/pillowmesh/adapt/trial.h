@@ -31,14 +31,8 @@ class Trial {
   /// Relocates vertices first to last - 1 once. \return by how much the energy fell.
   double sweep(VertexId first, VertexId last);
 
-  [[nodiscard]] int valence(VertexId v) { return find_star(mesh_, v, star_) ? star_.count : 0; }
   /// Cells that a vertex should have: 4 inside, 2 on a curve, at a corner as many as fill it with right angles.
   [[nodiscard]] int ideal(VertexId v) const { return ideal_[v]; }
-  /// By how much (valence - ideal)^2 grows when a vertex gets `change` cells more.
-  [[nodiscard]] int excess(VertexId v, int change) {
-    const int off = valence(v) - ideal_[v];
-    return change * (2 * off + change);
-  }
   /// When the surroundings of v last changed, in terms of `clock`.
   [[nodiscard]] Index changed(VertexId v) const { return changed_[v]; }
   Index tick() { return ++clock_; }
@@ -56,6 +50,7 @@ class Trial {
   std::int64_t moves = 0;  ///< vertices that relocation was tried at
 
  private:
+  [[nodiscard]] int valence(VertexId v) { return find_star(mesh_, v, star_) ? star_.count : 0; }
   bool change_topology();
   bool remove_doublets();
   bool valences_allow();

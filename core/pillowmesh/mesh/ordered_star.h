@@ -46,8 +46,9 @@ inline bool find_star(const Mesh<2>& mesh, VertexId v, OrderedStar& star) {
   if (c == kNone) return false;
   int i = place_of(mesh, c, v);
   const CellId seed = c;
-  // Clockwise to the boundary, or once around.
-  for (int steps = 0;; ++steps) {
+  star.closed = mesh.support[v].dim == 2;
+  // Clockwise to the boundary, or once around where a curve may be inside.
+  for (int steps = 0; !star.closed; ++steps) {
     const HalfFacetId twin = twin_of_side(mesh, c, i);
     if (twin < 0) {
       star.closed = false;
@@ -67,7 +68,7 @@ inline bool find_star(const Mesh<2>& mesh, VertexId v, OrderedStar& star) {
     star.cell[star.count] = c;
     star.place[star.count++] = static_cast<std::int8_t>(i);
     const HalfFacetId twin = twin_of_side(mesh, c, i + 3);
-    if (twin < 0) return true;
+    if (twin < 0) return !star.closed;
     c = mesh.cell_of(twin);
     if (c == first) return true;
     i = kFacetSide[mesh.facet_of(twin)];

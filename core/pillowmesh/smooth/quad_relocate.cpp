@@ -32,6 +32,30 @@ double QuadRelocator::total_energy() const {
   return sum;
 }
 
+double QuadRelocator::misalignment() const {
+  double sum = 0.0;
+  std::int64_t count = 0;
+  for (CellId c = 0; c < mesh_.cell_count(); ++c) {
+    if (!mesh_.alive(c)) continue;
+    for (const EdgeTerm& e : edges_[c]) {
+      const double t = e.g11 + e.g22;  // the ratio of sizes and its reciprocal
+      if (!(t > 2.5)) continue;
+      sum += e.s / (1.0 - 4.0 / (t * t));
+      ++count;
+    }
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
+void QuadRelocator::set_alignment(double alignment) {
+  weights_.alignment = alignment;
+  begin();
+  std::fill(cell_stamp_.begin(), cell_stamp_.end(), stamp_);  // nothing here is taken back
+  for (CellId c = 0; c < mesh_.cell_count(); ++c)
+    if (mesh_.alive(c)) add_up(c);
+  begin();
+}
+
 void QuadRelocator::begin() {
   cell_stamp_.resize(mesh_.cells.size(), 0);
   vertex_stamp_.resize(mesh_.points.size(), 0);

@@ -37,6 +37,11 @@ class QuadRelocator {
   /// Measures everything again, with these weights.
   void measure_all(const Weights& weights);
   [[nodiscard]] const Weights& weights() const { return weights_; }
+  /// Mean of sin^2(2 phi) over the sides of cells where the metric is stretched 2 : 1 or more, phi as in the report; 0 where
+  /// there are none.
+  [[nodiscard]] double misalignment() const;
+  /// Cost: energies are added up again, lengths are not measured.
+  void set_alignment(double alignment);
   /// Measures sizes at a vertex that is new or was put elsewhere.
   void measure_vertex(VertexId v);
   /// Measures a cell whose corners, or whose vertices, are new. \return its energy
