@@ -10,7 +10,7 @@ function(pillowmesh_compile_options target)
   endif()
   target_compile_definitions(${target} PRIVATE EIGEN_DONT_VECTORIZE)
   if(NOT MSVC)
-    target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno)
+    target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno -Wno-psabi)
   endif()
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # Position-independent code without it is not inlined: any function could be replaced at run time.

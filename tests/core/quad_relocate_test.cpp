@@ -121,27 +121,43 @@ const char* const kVarying[] = {"h = 0.05 + 0.1*abs(x)", "h1 = 0.05 + 0.1*y^2; h
 
 }  // namespace
 
-TEST_CASE("two edges at a time are measured as each alone, to the bit") {
+namespace {
+
+template <class R>
+void compare_lanes(const char* text) {
+  constexpr int n = kWidth<R>;
+  auto metric = of_formula(text);
+  const auto edges = some_edges(*MetricField<2>::from_formula(text), 200);
+  for (std::size_t i = 0; i + n <= edges.size(); i += n) {
+    R px{}, py{}, ex{}, ey{};
+    JetOf<R> P{}, Q{};
+    std::array<EdgeTerm, n> alone;
+    for (int k = 0; k < n; ++k) {
+      const auto& [p, q] = edges[i + k];
+      const auto A = jet_of(metric.jet(p)), B = jet_of(metric.jet(q));
+      px[k] = p[0], py[k] = p[1], ex[k] = q[0] - p[0], ey[k] = q[1] - p[1];
+      const auto set = [k](JetOf<R>& to, const JetOf<double>& j) {
+        to.a[k] = j.a, to.b[k] = j.b, to.c[k] = j.c, to.ax[k] = j.ax, to.bx[k] = j.bx, to.cx[k] = j.cx;
+        to.ay[k] = j.ay, to.by[k] = j.by, to.cy[k] = j.cy;
+      };
+      set(P, A), set(Q, B);
+      alone[k] = edge_term<double>(metric, kNone, 1.0, px[k], py[k], ex[k], ey[k], A, B);
+    }
+    const auto together = edge_term<R>(metric, kNone, 1.0, px, py, ex, ey, P, Q);
+    for (int k = 0; k < n; ++k) {
+      REQUIRE((together.l[k] == alone[k].l && together.s[k] == alone[k].s));
+      REQUIRE((together.g11[k] == alone[k].g11 && together.g12[k] == alone[k].g12 && together.g22[k] == alone[k].g22));
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("edges in lanes are measured as each alone, to the bit") {
   for (const char* text : kVarying) {
     INFO(text);
-    auto metric = of_formula(text);
-    const auto edges = some_edges(*MetricField<2>::from_formula(text), 200);
-    for (std::size_t i = 0; i + 1 < edges.size(); i += 2) {
-      const auto& [a, b] = edges[i];
-      const auto& [c, d] = edges[i + 1];
-      const Point<2> e = b - a, f = d - c;
-      const auto A = jet_of(metric.jet(a)), B = jet_of(metric.jet(b)), C = jet_of(metric.jet(c)), D = jet_of(metric.jet(d));
-      const auto both = [](const JetOf<double>& u, const JetOf<double>& v) {
-        return JetOf<Pair>{pair_of(u.a, v.a),   pair_of(u.b, v.b),   pair_of(u.c, v.c),   pair_of(u.ax, v.ax), pair_of(u.bx, v.bx),
-                           pair_of(u.cx, v.cx), pair_of(u.ay, v.ay), pair_of(u.by, v.by), pair_of(u.cy, v.cy)};
-      };
-      const auto two = edge_term<Pair>(metric, kNone, 1.0, pair_of(a[0], c[0]), pair_of(a[1], c[1]), pair_of(e[0], f[0]),
-                                       pair_of(e[1], f[1]), both(A, C), both(B, D));
-      const EdgeTerm one = edge_term(metric, kNone, 1.0, a[0], a[1], e[0], e[1], A, B);
-      const EdgeTerm other = edge_term(metric, kNone, 1.0, c[0], c[1], f[0], f[1], C, D);
-      REQUIRE((two.l[0] == one.l && two.l[1] == other.l && two.s[0] == one.s && two.s[1] == other.s));
-      REQUIRE((two.g11[0] == one.g11 && two.g12[1] == other.g12 && two.g22[0] == one.g22));
-    }
+    compare_lanes<Pair>(text);
+    compare_lanes<Four>(text);
   }
 }
 

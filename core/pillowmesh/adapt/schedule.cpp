@@ -40,6 +40,12 @@ constexpr double kMisalignment = 0.11;
 constexpr double kLeastAlignment = 0.05, kMostAlignment = 1.5;
 constexpr int kPassesToBalance = 5;
 
+/// Weight of shapes below EnergyWeights::shape_floor in the polish.
+constexpr double kShape = 10.0;
+/// Weight of obtuse corners at the end: a thousandth of cv buys one or two of eta. Of that more is taken where nothing is
+/// aligned.
+double obtuse_weight(double align) { return 0.05 + 0.2 * (1.0 - align); }
+
 Background background_of(const Mesh<2>& mesh, const MetricField<2>& field) {
   Point<2> low = mesh.points[0], high = low;
   for (const Point<2>& p : mesh.points) {
@@ -143,11 +149,13 @@ void Schedule::end_polish_round() {
     sweeps_ = 0;
     EnergyWeights exact = trial_.relocator.weights();
     exact.rough = 0.5;
+    if (budget_.polish_rounds > 0) exact.shape = kShape, exact.obtuse = obtuse_weight(options_.align);
     trial_.relocator.measure_all(exact);
+    descent_.restart();
     return;
   }
   if (polish_++ == 0) {
-    trial_.relocator.measure_all({.alignment = alignment_, .shape = 10.0, .shape_floor = 0.65});
+    trial_.relocator.measure_all({.alignment = alignment_, .shape = kShape, .obtuse = obtuse_weight(options_.align)});
     trial_.touch_all();
   }
   search_.begin_pass(0.0);

@@ -7,19 +7,21 @@ namespace pillowmesh {
 void add_shape(double a, const Point<2>* da, double b, const Point<2>* db, double diagonal, const Point<2>* dd,
                const EnergyWeights& weights, QuadDerivatives& sum) {
   const double L1 = a * a, L2 = b * b, D = diagonal * diagonal;
-  const double lack = weights.shape_floor * weights.shape_floor - squared_shape(L1, L2, D);
-  if (!(lack > 0)) return;
+  const double eta2 = squared_shape(L1, L2, D), obtuse = 1.0 - eta2, lack = weights.shape_floor * weights.shape_floor - eta2;
+  if (!(obtuse > 0)) return;
+  double weight = weights.obtuse, value = weight * obtuse * obtuse, slope = -2.0 * weight * obtuse;
+  if (lack > 0) weight += weights.shape, value += weights.shape * lack * lack, slope -= 2.0 * weights.shape * lack;
   const double g = 0.5 * (L1 + L2 - D), i = 1.0 / (L1 + L2 + D), det = L1 * L2 - g * g;
   const double common = 16.0 * i * i, spread = -2.0 * det * i;
   Point<2> d = Point<2>::Zero();
   if (da != nullptr) d += (common * (L2 - g + spread) * 2.0 * a) * *da;
   if (db != nullptr) d += (common * (L1 - g + spread) * 2.0 * b) * *db;
   if (dd != nullptr) d += (common * (g + spread) * 2.0 * diagonal) * *dd;
-  sum.value += weights.shape * lack * lack;
-  sum.gradient -= (2.0 * weights.shape * lack) * d;
-  sum.xx += 2.0 * weights.shape * d[0] * d[0];
-  sum.xy += 2.0 * weights.shape * d[0] * d[1];
-  sum.yy += 2.0 * weights.shape * d[1] * d[1];
+  sum.value += value;
+  sum.gradient += slope * d;
+  sum.xx += 2.0 * weight * d[0] * d[0];
+  sum.xy += 2.0 * weight * d[0] * d[1];
+  sum.yy += 2.0 * weight * d[1] * d[1];
 }
 
 Point<2> QuadDerivatives::step() const {

@@ -19,10 +19,14 @@ struct QuadDerivatives {
   Point<2> gradient = Point<2>::Zero();
   double xx = 0.0, xy = 0.0, yy = 0.0;
 
-  void add(const QuadDerivativesOf<Pair>& d, int lane) {
-    value += d.value[lane];
-    gradient += Point<2>(d.x[lane], d.y[lane]);
-    xx += d.xx[lane], xy += d.xy[lane], yy += d.yy[lane];
+  /// The first lanes of d.
+  template <class R>
+  PILLOWMESH_LANES void add(const QuadDerivativesOf<R>& d, int lanes) {
+    for (int i = 0; i < lanes; ++i) {
+      value += d.value[i];
+      gradient[0] += d.x[i], gradient[1] += d.y[i];
+      xx += d.xx[i], xy += d.xy[i], yy += d.yy[i];
+    }
   }
   /// Newton's step with the eigenvalues of the Hessian made positive.
   [[nodiscard]] Point<2> step() const;
@@ -42,25 +46,25 @@ using EdgeSlope = EdgeSlopeOf<double>;
 
 /// Of the edge e = q - p with p = x, these terms, and sizes at its ends.
 template <class R>
-inline EdgeSlopeOf<R> edge_slope(Background& background, Index leaf, const EnergyWeights& weights, const R& px, const R& py, const R& ex, const R& ey,
+PILLOWMESH_LANES EdgeSlopeOf<R> edge_slope(Background& background, Index leaf, const EnergyWeights& weights, const R& px, const R& py, const R& ex, const R& ey,
                                  const EdgeTermOf<R>& term, const JetOf<R>& p, const JetOf<R>& q) {
   const EdgeSizes<R> s = edge_sizes(background, leaf, weights.rough, px, py, ex, ey, p, q);
   EdgeSlopeOf<R> d;
   d.lx = d.ly = same<R>(0);
   // A place t of the way from x to q moves by (1 - t) of what x does.
-  const auto sample = [&](double t, const auto& jets, const R& a, const R& b, const R& c, const R& det) {
+  const auto sample = [&](double t, const auto& jets, const R& a, const R& b, const R& c, const R& det) PILLOWMESH_LANES_LAMBDA {
     const R x = c * ex - b * ey, y = a * ey - b * ex, n = root(x * x + y * y);
     const R both = 1.0 / (n * det), i_det = n * both, l = n * i_det;
     const double w = 1.0 - t;
     R ax = w * p.ax + t * q.ax, bx = w * p.bx + t * q.bx, cx = w * p.cx + t * q.cx;
     R ay = w * p.ay + t * q.ay, by = w * p.by + t * q.by, cy = w * p.cy + t * q.cy;
-    for (int i = 0; i < EdgeSizes<R>::kLanes; ++i) {
+    for (int i = 0; i < kWidth<R>; ++i) {
       if (!s.rough[i]) continue;
       const SizeJet& j = jets[i];
       set_lane(ax, i, j.dx.a), set_lane(bx, i, j.dx.b), set_lane(cx, i, j.dx.c);
       set_lane(ay, i, j.dy.a), set_lane(by, i, j.dy.b), set_lane(cy, i, j.dy.c);
     }
-    const auto by_sizes = [&](const R& da, const R& db, const R& dc) {
+    const auto by_sizes = [&](const R& da, const R& db, const R& dc) PILLOWMESH_LANES_LAMBDA {
       return (x * (dc * ex - db * ey) + y * (da * ey - db * ex)) * both - l * (da * c + a * dc - 2.0 * b * db) * i_det;
     };
     d.lx = d.lx + 0.5 * (w * by_sizes(ax, bx, cx) - (c * x - b * y) * both);
@@ -81,7 +85,7 @@ inline EdgeSlopeOf<R> edge_slope(Background& background, Index leaf, const Energ
   const R n = ex * ex + ey * ey, r = n * i_q, t = term.g11 + term.g22, i_t = 1.0 / t, i_t2 = i_t * i_t;
   const R by_r = 4.0 * (t - 2.0 * r) * i_t2, by_t = 4.0 * r * i_t2 - 2.0 * term.s * i_t;
   const R a = 0.5 * (s.a1 + s.a2), b = 0.5 * (s.b1 + s.b2), c = 0.5 * (s.c1 + s.c2), i_det = 1.0 / (a * c - b * b);
-  const auto by_sizes = [&](const R& da, const R& db, const R& dc) {
+  const auto by_sizes = [&](const R& da, const R& db, const R& dc) PILLOWMESH_LANES_LAMBDA {
     const R ddet = da * c + a * dc - 2.0 * b * db;
     const R d11 = (2.0 * (c * dc + b * db) - term.g11 * ddet) * i_det;
     const R d12 = (-(db * (a + c) + b * (da + dc)) - term.g12 * ddet) * i_det;
@@ -99,7 +103,7 @@ inline EdgeSlopeOf<R> edge_slope(Background& background, Index leaf, const Energ
 /// Corner of two edges e1 = q1 - x and e2 = q2 - x in counterclockwise order (Moving = 2), or of a fixed edge e2 and an edge
 /// e1 = q1 - x with the vertex at its far end (Moving = 1). `cross`: of the corner's edges, with its gradient.
 template <int Moving, class R>
-inline void add_corner(const R& cross, const R& cross_x, const R& cross_y, const R& e1x, const R& e1y,
+PILLOWMESH_LANES void add_corner(const R& cross, const R& cross_x, const R& cross_y, const R& e1x, const R& e1y,
                        const EdgeTermOf<R>& a, const EdgeSlopeOf<R>& da, const R& e2x, const R& e2y, const EdgeTermOf<R>& b,
                        const EdgeSlopeOf<R>& db, const EnergyWeights& weights, QuadDerivativesOf<R>& sum) {
   const R g11 = a.g11 + b.g11, g12 = a.g12 + b.g12, g22 = a.g22 + b.g22;

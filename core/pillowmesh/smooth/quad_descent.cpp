@@ -87,8 +87,7 @@ double QuadDescent::iterate() {
   mesh_.points = start_;
   mesh_.anchor = start_anchor_;
   relocator_.measure_all(relocator_.weights());
-  direction_.clear();
-  last_step_ = 0.5;
+  restart();
   return 0.0;
 }
 

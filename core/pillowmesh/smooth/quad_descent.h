@@ -11,12 +11,17 @@ namespace pillowmesh {
 /// Nonlinear conjugate gradients (Polak and Ribiere, with restarts), preconditioned by each vertex's own Hessian.
 class QuadDescent {
  public:
-  /// Both must outlive it; nobody else may change the mesh meanwhile.
+  /// Both must outlive it; where others change the mesh meanwhile, `restart`.
   QuadDescent(Mesh<2>& mesh, QuadRelocator& relocator) : mesh_(mesh), relocator_(relocator) {}
 
   /// One iteration. No cell is ever inverted. \return by how much the energy fell; 0 when it cannot be lowered.
   /// Cost: derivatives at all vertices, and a few evaluations of the whole energy.
   double iterate();
+  /// Forgets where it was going.
+  void restart() {
+    direction_.clear();
+    last_step_ = 0.5;
+  }
 
  private:
   bool find_direction();

@@ -12,14 +12,14 @@
 // The metric along an edge is told from its ends, where sizes and their derivatives are known: in between sizes are cubic.
 // Only where that cannot be true, at kinks of the metric, it is looked up along the edge.
 //
-// Everything is written for R, which is one number or two (pair.h).
+// Everything is written for R, which is one number, two or four (lanes.h).
 #pragma once
 
 #include <array>
 #include <limits>
 
 #include "pillowmesh/metric/background.h"
-#include "pillowmesh/smooth/pair.h"
+#include "pillowmesh/smooth/lanes.h"
 
 namespace pillowmesh {
 
@@ -55,6 +55,8 @@ struct EnergyWeights {
   /// Weight of sum max(0, shape_floor^2 - eta^2)^2 over corners.
   double shape = 0.0;
   double shape_floor = 0.65;
+  /// Weight of sum max(0, 1 - eta^2)^2: what shapes cost besides, where `shape` is not 0.
+  double obtuse = 0.0;
   /// Where sizes between the ends of an edge cannot be told from there: how much the derivatives may differ from the
   /// change, relative to the least size. 1: lengths are then off by about 1 % at the most.
   double rough = 2.0;
@@ -66,24 +68,29 @@ inline constexpr double kGauss = 0.21132486540518713, kGauss2 = 0.78867513459481
 template <class R>
 struct EdgeSizes {
   R a1, b1, c1, a2, b2, c2, det1, det2;
-  static constexpr int kLanes = sizeof(R) / sizeof(double);
-  std::array<bool, kLanes> rough;  ///< looked up, since they cannot be told from the ends:
-  std::array<SizeJet, kLanes> jet1, jet2;
+  std::array<bool, kWidth<R>> rough;  ///< looked up, since they cannot be told from the ends:
+  std::array<SizeJet, kWidth<R>> jet1, jet2;
 };
 
 inline double lane(double a, int) { return a; }
-inline double lane(const Pair& a, int i) { return a[i]; }
+template <class R>
+PILLOWMESH_LANES double lane(const R& a, int i) {
+  return a[i];
+}
 inline void set_lane(double& a, int, double value) { a = value; }
-inline void set_lane(Pair& a, int i, double value) { a[i] = value; }
+template <class R>
+PILLOWMESH_LANES void set_lane(R& a, int i, double value) {
+  a[i] = value;
+}
 
 /// px, py: the position of p, in this leaf of the background.
 template <class R>
-inline EdgeSizes<R> edge_sizes(Background& background, Index leaf, double rough, const R& px, const R& py, const R& ex, const R& ey, const JetOf<R>& p,
+PILLOWMESH_LANES EdgeSizes<R> edge_sizes(Background& background, Index leaf, double rough, const R& px, const R& py, const R& ex, const R& ey, const JetOf<R>& p,
                                const JetOf<R>& q) {
   constexpr double u1 = kGauss2 / 6, w1 = kGauss / 6;
   EdgeSizes<R> s;
   R off = same<R>(0);
-  const auto cubic = [&](const R& hp, const R& hq, const R& hpx, const R& hpy, const R& hqx, const R& hqy, R& h1, R& h2) {
+  const auto cubic = [&](const R& hp, const R& hq, const R& hpx, const R& hpy, const R& hqx, const R& hqy, R& h1, R& h2) PILLOWMESH_LANES_LAMBDA {
     const R D = hq - hp, u = hpx * ex + hpy * ey - D, w = hqx * ex + hqy * ey - D;
     h1 = hp + kGauss * D + (u1 * u - w1 * w);
     h2 = hp + kGauss2 * D + (w1 * u - u1 * w);
@@ -94,7 +101,7 @@ inline EdgeSizes<R> edge_sizes(Background& background, Index leaf, double rough,
   cubic(p.c, q.c, p.cx, p.cy, q.cx, q.cy, s.c1, s.c2);
   const R least = rough * ((p.a * p.c - p.b * p.b) + (q.a * q.c - q.b * q.b));
   off = off * (p.a + p.c + q.a + q.c);
-  for (int i = 0; i < EdgeSizes<R>::kLanes; ++i) {
+  for (int i = 0; i < kWidth<R>; ++i) {
     s.rough[i] = !(lane(off, i) < lane(least, i));
     if (!s.rough[i]) continue;
     const double x = lane(px, i), y = lane(py, i), dx = lane(ex, i), dy = lane(ey, i);
@@ -113,7 +120,7 @@ inline EdgeSizes<R> edge_sizes(Background& background, Index leaf, double rough,
 /// Edge e = q - p. Its length is that of Gauss's rule; the misalignment is that in the middle: with r = |e|^2 / (e' G e)
 /// and t = tr G it is 4 (r (t - r) - 1) / t^2.
 template <class R>
-inline EdgeTermOf<R> edge_term(Background& background, Index leaf, double rough, const R& px, const R& py, const R& ex, const R& ey, const JetOf<R>& p,
+PILLOWMESH_LANES EdgeTermOf<R> edge_term(Background& background, Index leaf, double rough, const R& px, const R& py, const R& ex, const R& ey, const JetOf<R>& p,
                                const JetOf<R>& q) {
   const EdgeSizes<R> s = edge_sizes(background, leaf, rough, px, py, ex, ey, p, q);
   const R x1 = s.c1 * ex - s.b1 * ey, y1 = s.a1 * ey - s.b1 * ex, x2 = s.c2 * ex - s.b2 * ey, y2 = s.a2 * ey - s.b2 * ex;
@@ -135,7 +142,7 @@ inline EdgeTermOf<R> edge_term(Background& background, Index leaf, double rough,
 /// Energy of a corner whose edges e1, e2 are in counterclockwise order; not meant for one that is degenerate or inside out
 /// (cross <= 0) when delta is 0.
 template <class R>
-inline R corner_energy(const R& cross, const R& e1x, const R& e1y, const EdgeTermOf<R>& a, const R& e2x, const R& e2y,
+PILLOWMESH_LANES R corner_energy(const R& cross, const R& e1x, const R& e1y, const EdgeTermOf<R>& a, const R& e2x, const R& e2y,
                        const EdgeTermOf<R>& b, const EnergyWeights& weights) {
   const R g11 = a.g11 + b.g11, g12 = a.g12 + b.g12, g22 = a.g22 + b.g22;  // twice G: the factor cancels
   const R q1 = g11 * e1x * e1x + 2.0 * g12 * e1x * e1y + g22 * e1y * e1y;
@@ -162,8 +169,10 @@ inline double squared_shape(double L1, double L2, double D) {
 /// What a corner with these edges and this length opposite to it costs for its shape. The angle in the mean metric of
 /// both edges would miss what the metric does between them.
 inline double shape_energy(double a, double b, double diagonal, const EnergyWeights& weights) {
-  const double lack = weights.shape_floor * weights.shape_floor - squared_shape(a * a, b * b, diagonal * diagonal);
-  return lack > 0 ? weights.shape * lack * lack : 0.0;
+  const double eta2 = squared_shape(a * a, b * b, diagonal * diagonal);
+  const double obtuse = 1.0 - eta2, lack = weights.shape_floor * weights.shape_floor - eta2;
+  if (!(obtuse > 0)) return 0.0;
+  return weights.obtuse * obtuse * obtuse + (lack > 0 ? weights.shape * lack * lack : 0.0);
 }
 
 }  // namespace pillowmesh

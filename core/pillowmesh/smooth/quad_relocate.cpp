@@ -162,7 +162,7 @@ bool QuadRelocator::collect(VertexId v) {
     spokes_.end[k] = w;
     spokes_.qx[k] = mesh_.points[w][0];
     spokes_.qy[k] = mesh_.points[w][1];
-    spokes_.jet[k] = size_[w];
+    spokes_.jet.set(k, size_[w]);
     now_.set(k, edges_[c][side & 3]);
   };
   for (int k = 0; k < star_.count; ++k) {
@@ -177,14 +177,14 @@ bool QuadRelocator::collect(VertexId v) {
     wedges_.far.set(2 * k, edges_[c][(i + 1) & 3]);
     wedges_.far.set(2 * k + 1, edges_[c][(i + 2) & 3]);
   }
-  // Pairs of spokes begin anywhere: the next after the last is the first. On the boundary what comes after the last is
-  // computed, too, and of no use.
-  for (int extra = 0; extra < 2; ++extra) {
-    const int from = star_.closed ? extra : spoke_count_ - 1, to = spoke_count_ + extra;
+  // Lanes begin anywhere: the next after the last is the first. On the boundary what comes after the last is computed, too,
+  // and of no use.
+  for (int to = spoke_count_; to < padded(); ++to) {
+    const int from = again(to);
     spokes_.end[to] = spokes_.end[from];
     spokes_.qx[to] = spokes_.qx[from];
     spokes_.qy[to] = spokes_.qy[from];
-    spokes_.jet[to] = spokes_.jet[from];
+    spokes_.jet.set(to, spokes_.jet.get(from));
     now_.copy(from, to);
   }
   for (int k = 0; k < star_.count; ++k) {
@@ -195,74 +195,77 @@ bool QuadRelocator::collect(VertexId v) {
   }
   if (shaped())
     for (int k = 0; k < star_.count; ++k)
-      wedges_.across[k] = length({spokes_.qx[k], spokes_.qy[k]}, spokes_.jet[k], {spokes_.qx[k + 1], spokes_.qy[k + 1]},
-                                 spokes_.jet[k + 1]);
+      wedges_.across[k] = length({spokes_.qx[k], spokes_.qy[k]}, spokes_.jet.get(k),
+                                 {spokes_.qx[k + 1], spokes_.qy[k + 1]}, spokes_.jet.get(k + 1));
   return true;
-}
-
-/// Sizes at the ends of spokes k and k + 1.
-JetOf<Pair> QuadRelocator::jets(int k) const {
-  const Jet &p = spokes_.jet[k], &q = spokes_.jet[k + 1];
-  return {pair_of(p.a, q.a),   pair_of(p.b, q.b),   pair_of(p.c, q.c),   pair_of(p.ax, q.ax), pair_of(p.bx, q.bx),
-          pair_of(p.cx, q.cx), pair_of(p.ay, q.ay), pair_of(p.by, q.by), pair_of(p.cy, q.cy)};
 }
 
 namespace {
 
-JetOf<Pair> twice(const JetOf<double>& j) {
-  return {same<Pair>(j.a),  same<Pair>(j.b),  same<Pair>(j.c),  same<Pair>(j.ax), same<Pair>(j.bx),
-          same<Pair>(j.cx), same<Pair>(j.ay), same<Pair>(j.by), same<Pair>(j.cy)};
+template <class R>
+PILLOWMESH_LANES JetOf<R> everywhere(const JetOf<double>& j) {
+  return {same<R>(j.a),  same<R>(j.b),  same<R>(j.c),  same<R>(j.ax), same<R>(j.bx),
+          same<R>(j.cx), same<R>(j.ay), same<R>(j.by), same<R>(j.cy)};
 }
+
+#if defined(PILLOWMESH_WIDE)
+const bool kWide = __builtin_cpu_supports("avx2") != 0;
+#endif
 
 }  // namespace
 
 /// Energy of the corners with the vertex at x; what is above `limit` is not added up to the end.
 double QuadRelocator::try_at(const Point<2>& x, double limit) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  const bool barrier = weights_.delta == 0.0;
-  const int n = star_.count;
-  std::array<double, kMost> ex, ey;
-  for (int k = 0; k < spoke_count_ + 2; ++k) ex[k] = spokes_.qx[k] - x[0], ey[k] = spokes_.qy[k] - x[1];
+  Row ex, ey;
+  for (int k = 0; k < padded(); ++k) ex[k] = spokes_.qx[k] - x[0], ey[k] = spokes_.qy[k] - x[1];
   // What is inside out needs no metric.
-  if (barrier)
-    for (int k = 0; k < n; ++k) {
+  if (weights_.delta == 0.0)
+    for (int k = 0; k < star_.count; ++k) {
       const double *fx = &wedges_.fx[2 * k], *fy = &wedges_.fy[2 * k];
       if (!(ex[k] * ey[k + 1] - ey[k] * ex[k + 1] > 0) || !(fy[0] * ex[k] - fx[0] * ey[k] > 0) ||
           !(fy[1] * ex[k + 1] - fx[1] * ey[k + 1] > 0))
         return infinite;
     }
   size_at_ = jet_of(background_.jet(x, leaf_at_));
-  const JetOf<Pair> here = twice(size_at_);
-  for (int k = 0; k < spoke_count_; k += 2)
-    next_.store_pair(k, edge_term(background_, leaf_at_, weights_.rough, same<Pair>(x[0]), same<Pair>(x[1]), load(&ex[k]), load(&ey[k]), here, jets(k)));
-  if (star_.closed) {
-    next_.copy(0, spoke_count_);
-    next_.copy(1, spoke_count_ + 1);
-  } else {
-    if ((spoke_count_ & 1) == 0) next_.copy(spoke_count_ - 1, spoke_count_);
-    next_.copy(spoke_count_ - 1, spoke_count_ + 1);
-  }
+#if defined(PILLOWMESH_WIDE)
+  if (kWide) return wide_sum_of_corners(x, ex, ey, limit);
+#endif
+  return sum_of_corners<Pair>(x, ex, ey, limit);
+}
+
+template <class R>
+double QuadRelocator::sum_of_corners(const Point<2>& x, const Row& ex, const Row& ey, double limit) {
+  constexpr int lanes = kWidth<R>, wedges = lanes / 2;
+  const int n = star_.count;
+  const JetOf<R> here = everywhere<R>(size_at_);
+  for (int k = 0; k < spoke_count_; k += lanes)
+    next_.store_lanes(k, edge_term<R>(background_, leaf_at_, weights_.rough, same<R>(x[0]), same<R>(x[1]), load<R>(&ex[k]),
+                                      load<R>(&ey[k]), here, spokes_.jet.lanes<R>(k)));
+  for (int to = spoke_count_; to < padded(); ++to) next_.copy(again(to), to);
   double sum = 0.0;
-  for (int k = 0; k < n; k += 2) {
-    const Pair e1x = load(&ex[k]), e1y = load(&ey[k]), e2x = load(&ex[k + 1]), e2y = load(&ey[k + 1]);
-    const EdgeTermOf<Pair> a = next_.pair(k), b = next_.pair(k + 1);
-    const Pair near = corner_energy<Pair>(e1x * e2y - e1y * e2x, e1x, e1y, a, e2x, e2y, b, weights_);
-    for (int i = 0; i < 2 && k + i < n; ++i) {
-      const int j = k + i;
-      const Pair fx = load(&wedges_.fx[2 * j]), fy = load(&wedges_.fy[2 * j]), sx = load(&ex[j]), sy = load(&ey[j]);
-      const Pair far = corner_energy<Pair>(fy * sx - fx * sy, sx, sy, i == 0 ? a : b, fx, fy, wedges_.far.pair(2 * j), weights_);
-      double E = near[i] + (far[0] + far[1]);
-      if (shaped()) {
-        const double out = length(x, size_at_, {wedges_.ox[j], wedges_.oy[j]}, wedges_.jet[j]);
-        E += shape_energy(next_.l[j], next_.l[j + 1], wedges_.across[j], weights_) +
-             shape_energy(wedges_.far.l[2 * j], next_.l[j], out, weights_) +
-             shape_energy(next_.l[j + 1], wedges_.far.l[2 * j + 1], out, weights_);
-      }
-      wedges_.energy[j] = E;
+  for (int k = 0; k < n; k += lanes) {
+    const R e1x = load<R>(&ex[k]), e1y = load<R>(&ey[k]), e2x = load<R>(&ex[k + 1]), e2y = load<R>(&ey[k + 1]);
+    const R near =
+        corner_energy<R>(e1x * e2y - e1y * e2x, e1x, e1y, next_.lanes<R>(k), e2x, e2y, next_.lanes<R>(k + 1), weights_);
+    for (int j = k; j < k + lanes && j < n; j += wedges) {
+      const R fx = load<R>(&wedges_.fx[2 * j]), fy = load<R>(&wedges_.fy[2 * j]), sx = ends<R>(&ex[j]), sy = ends<R>(&ey[j]);
+      const R far =
+          corner_energy<R>(fy * sx - fx * sy, sx, sy, next_.ends_from<R>(j), fx, fy, wedges_.far.lanes<R>(2 * j), weights_);
+      for (int i = 0; i < wedges && j + i < n; ++i)
+        sum += wedges_.energy[j + i] = near[j - k + i] + (far[2 * i] + far[2 * i + 1]);
+    }
+    if (weights_.delta == 0.0 && !(sum < limit)) return sum;  // with delta what comes may be negative
+  }
+  if (shaped())
+    for (int j = 0; j < n; ++j) {
+      const double out = length(x, size_at_, {wedges_.ox[j], wedges_.oy[j]}, wedges_.jet[j]);
+      const double E = shape_energy(next_.l[j], next_.l[j + 1], wedges_.across[j], weights_) +
+                       shape_energy(wedges_.far.l[2 * j], next_.l[j], out, weights_) +
+                       shape_energy(next_.l[j + 1], wedges_.far.l[2 * j + 1], out, weights_);
+      wedges_.energy[j] += E;
       sum += E;
     }
-    if (!(sum < limit)) break;
-  }
   return sum;
 }
 
@@ -270,47 +273,72 @@ bool QuadRelocator::derivatives(VertexId v, Derivatives& sum) {
   if (!collect(v)) return false;
   leaf_at_ = leaf_[v];
   const Point<2> x = mesh_.points[v];
-  const JetOf<Pair> here = twice(size_[v]);
-  std::array<double, kMost> ex, ey;
-  for (int k = 0; k < spoke_count_ + 2; ++k) ex[k] = spokes_.qx[k] - x[0], ey[k] = spokes_.qy[k] - x[1];
-  std::array<std::array<double, kMost>, 6> slopes;
-  for (int k = 0; k < spoke_count_; k += 2) {
-    const EdgeSlopeOf<Pair> d = edge_slope(background_, leaf_at_, weights_, same<Pair>(x[0]), same<Pair>(x[1]), load(&ex[k]), load(&ey[k]),
-                                             now_.pair(k), here, jets(k));
-    store(&slopes[0][k], d.lx), store(&slopes[1][k], d.ly), store(&slopes[2][k], d.sx), store(&slopes[3][k], d.sy);
-    store(&slopes[4][k], d.frozen), store(&slopes[5][k], d.turn);
-  }
-  for (auto& row : slopes)
-    for (int extra = 0; extra < 2; ++extra) row[spoke_count_ + extra] = row[star_.closed ? extra : spoke_count_ - 1];
-  const auto slope = [&](int k) {
-    return EdgeSlopeOf<Pair>{load(&slopes[0][k]), load(&slopes[1][k]), load(&slopes[2][k]),
-                             load(&slopes[3][k]), load(&slopes[4][k]), load(&slopes[5][k])};
-  };
-
-  // Sum over the corners that change.
-  QuadDerivativesOf<Pair> both, last;
-  for (int k = 0; k < star_.count; k += 2) {
-    const Pair e1x = load(&ex[k]), e1y = load(&ey[k]), e2x = load(&ex[k + 1]), e2y = load(&ey[k + 1]);
-    const EdgeTermOf<Pair> a = now_.pair(k), b = now_.pair(k + 1);
-    const EdgeSlopeOf<Pair> da = slope(k), db = slope(k + 1);
-    // cross(q1 - x, q2 - x): its gradient is the edge from q2 to q1 turned.
-    add_corner<2>(Pair(e1x * e2y - e1y * e2x), Pair(e1y - e2y), Pair(e2x - e1x), e1x, e1y, a, da, e2x, e2y, b, db, weights_,
-                  k + 1 < star_.count ? both : last);
-    for (int i = 0; i < 2 && k + i < star_.count; ++i) {
-      const int j = k + i;
-      const Pair fx = load(&wedges_.fx[2 * j]), fy = load(&wedges_.fy[2 * j]), sx = load(&ex[j]), sy = load(&ey[j]);
-      // cross(f, x - q) where the spoke is the second edge; where it is the first f points the other way.
-      add_corner<1>(Pair(fy * sx - fx * sy), Pair(-fy), fx, sx, sy, i == 0 ? a : b, i == 0 ? da : db, fx, fy,
-                    wedges_.far.pair(2 * j), da, weights_, both);
-    }
-  }
   sum = {};
-  sum.add(both, 0);
-  sum.add(both, 1);
-  if (star_.count & 1) sum.add(last, 0);
+#if defined(PILLOWMESH_WIDE)
+  if (kWide)
+    wide_add_corners(v, x, sum);
+  else
+#endif
+    add_corners<Pair>(v, x, sum);
   if (shaped()) add_shapes(x, size_[v], sum);
   return true;
 }
+
+template <class R>
+void QuadRelocator::add_corners(VertexId v, const Point<2>& x, Derivatives& sum) {
+  constexpr int lanes = kWidth<R>, wedges = lanes / 2;
+  const JetOf<R> here = everywhere<R>(size_[v]);
+  Row ex, ey;
+  for (int k = 0; k < padded(); ++k) ex[k] = spokes_.qx[k] - x[0], ey[k] = spokes_.qy[k] - x[1];
+  std::array<Row, 6> slopes;
+  for (int k = 0; k < spoke_count_; k += lanes) {
+    const EdgeSlopeOf<R> d = edge_slope<R>(background_, leaf_at_, weights_, same<R>(x[0]), same<R>(x[1]), load<R>(&ex[k]),
+                                           load<R>(&ey[k]), now_.lanes<R>(k), here, spokes_.jet.lanes<R>(k));
+    store(&slopes[0][k], d.lx), store(&slopes[1][k], d.ly), store(&slopes[2][k], d.sx), store(&slopes[3][k], d.sy);
+    store(&slopes[4][k], d.frozen), store(&slopes[5][k], d.turn);
+  }
+  for (int to = spoke_count_; to < padded(); ++to)
+    for (Row& row : slopes) row[to] = row[again(to)];
+  const auto slope = [&](int k) PILLOWMESH_LANES_LAMBDA {
+    return EdgeSlopeOf<R>{load<R>(&slopes[0][k]), load<R>(&slopes[1][k]), load<R>(&slopes[2][k]),
+                          load<R>(&slopes[3][k]), load<R>(&slopes[4][k]), load<R>(&slopes[5][k])};
+  };
+  const auto slope_of_ends = [&](int k) PILLOWMESH_LANES_LAMBDA {
+    return EdgeSlopeOf<R>{ends<R>(&slopes[0][k]), ends<R>(&slopes[1][k]), ends<R>(&slopes[2][k]),
+                          ends<R>(&slopes[3][k]), ends<R>(&slopes[4][k]), ends<R>(&slopes[5][k])};
+  };
+
+  const int n = star_.count;
+  for (int k = 0; k < n; k += lanes) {
+    const R e1x = load<R>(&ex[k]), e1y = load<R>(&ey[k]), e2x = load<R>(&ex[k + 1]), e2y = load<R>(&ey[k + 1]);
+    QuadDerivativesOf<R> near;
+    // cross(q1 - x, q2 - x): its gradient is the edge from q2 to q1 turned.
+    add_corner<2, R>(e1x * e2y - e1y * e2x, e1y - e2y, e2x - e1x, e1x, e1y, now_.lanes<R>(k), slope(k), e2x, e2y,
+                     now_.lanes<R>(k + 1), slope(k + 1), weights_, near);
+    sum.add(near, n - k < lanes ? n - k : lanes);
+  }
+  // Sums of wedges with an even number, and with an odd one, whether they are computed together or not.
+  std::array<QuadDerivativesOf<R>, 2 / wedges> far;
+  for (int j = 0; j < n; j += wedges) {
+    const R fx = load<R>(&wedges_.fx[2 * j]), fy = load<R>(&wedges_.fy[2 * j]), sx = ends<R>(&ex[j]), sy = ends<R>(&ey[j]);
+    // cross(f, x - q) where the spoke is the second edge; where it is the first f points the other way.
+    const bool alone = (n & 1) != 0 && j + 1 == n;
+    QuadDerivativesOf<R> last;
+    add_corner<1, R>(fy * sx - fx * sy, -fy, fx, sx, sy, now_.ends_from<R>(j), slope_of_ends(j), fx, fy,
+                     wedges_.far.lanes<R>(2 * j), slope_of_ends(j), weights_, alone ? last : far[j % (2 / wedges)]);
+    if (alone) sum.add(last, 2);
+  }
+  for (const auto& part : far) sum.add(part, lanes);
+}
+
+#if defined(PILLOWMESH_WIDE)
+PILLOWMESH_WIDE double QuadRelocator::wide_sum_of_corners(const Point<2>& x, const Row& ex, const Row& ey, double limit) {
+  return sum_of_corners<Four>(x, ex, ey, limit);
+}
+PILLOWMESH_WIDE void QuadRelocator::wide_add_corners(VertexId v, const Point<2>& x, Derivatives& sum) {
+  add_corners<Four>(v, x, sum);
+}
+#endif
 
 void QuadRelocator::add_shapes(const Point<2>& x, const Jet& here, Derivatives& sum) {
   const auto gradient = [&](const Point<2>& e, const EdgeTerm& term, const Jet& there) {
@@ -318,7 +346,7 @@ void QuadRelocator::add_shapes(const Point<2>& x, const Jet& here, Derivatives& 
     return Point<2>(term.l * d.lx, term.l * d.ly);
   };
   const auto spoke = [&](int k) {
-    return gradient({spokes_.qx[k] - x[0], spokes_.qy[k] - x[1]}, now_.get(k), spokes_.jet[k]);
+    return gradient({spokes_.qx[k] - x[0], spokes_.qy[k] - x[1]}, now_.get(k), spokes_.jet.get(k));
   };
   for (int k = 0; k < star_.count; ++k) {
     const Point<2> o(wedges_.ox[k] - x[0], wedges_.oy[k] - x[1]);

@@ -67,12 +67,27 @@ class QuadRelocator {
 
  private:
   using Jet = JetOf<double>;
-  static constexpr int kMost = OrderedStar::most + 3;  ///< spokes; the first two come again after the last
+  static constexpr int kMost = OrderedStar::most + 8;  ///< spokes; the first come again after the last
+  using Row = std::array<double, kMost>;
+  /// Sizes and their derivatives.
+  struct JetRows {
+    Row a, b, c, ax, bx, cx, ay, by, cy;
+    void set(int k, const Jet& j) {
+      a[k] = j.a, b[k] = j.b, c[k] = j.c;
+      ax[k] = j.ax, bx[k] = j.bx, cx[k] = j.cx, ay[k] = j.ay, by[k] = j.by, cy[k] = j.cy;
+    }
+    [[nodiscard]] Jet get(int k) const { return {a[k], b[k], c[k], ax[k], bx[k], cx[k], ay[k], by[k], cy[k]}; }
+    template <class R>
+    [[nodiscard]] PILLOWMESH_LANES JetOf<R> lanes(int k) const {
+      return {load<R>(&a[k]),  load<R>(&b[k]),  load<R>(&c[k]),  load<R>(&ax[k]), load<R>(&bx[k]),
+              load<R>(&cx[k]), load<R>(&ay[k]), load<R>(&by[k]), load<R>(&cy[k])};
+    }
+  };
   /// The edges at the vertex, counterclockwise, each number in a row of its own.
   struct Spokes {
     std::array<VertexId, kMost> end;
-    std::array<double, kMost> qx, qy;     ///< positions of the ends
-    std::array<JetOf<double>, kMost> jet;  ///< sizes there
+    Row qx, qy;   ///< positions of the ends
+    JetRows jet;  ///< sizes there
   };
   /// Edge terms, each number in a row of its own.
   template <int N>
@@ -80,10 +95,16 @@ class QuadRelocator {
     std::array<double, N> l, g11, g12, g22, s;
     void set(int k, const EdgeTerm& t) { l[k] = t.l, g11[k] = t.g11, g12[k] = t.g12, g22[k] = t.g22, s[k] = t.s; }
     [[nodiscard]] EdgeTerm get(int k) const { return {l[k], g11[k], g12[k], g22[k], s[k]}; }
-    [[nodiscard]] EdgeTermOf<Pair> pair(int k) const {
-      return {load(&l[k]), load(&g11[k]), load(&g12[k]), load(&g22[k]), load(&s[k])};
+    template <class R>
+    [[nodiscard]] PILLOWMESH_LANES EdgeTermOf<R> lanes(int k) const {
+      return {load<R>(&l[k]), load<R>(&g11[k]), load<R>(&g12[k]), load<R>(&g22[k]), load<R>(&s[k])};
     }
-    void store_pair(int k, const EdgeTermOf<Pair>& t) {
+    template <class R>
+    [[nodiscard]] PILLOWMESH_LANES EdgeTermOf<R> ends_from(int k) const {
+      return {ends<R>(&l[k]), ends<R>(&g11[k]), ends<R>(&g12[k]), ends<R>(&g22[k]), ends<R>(&s[k])};
+    }
+    template <class R>
+    PILLOWMESH_LANES void store_lanes(int k, const EdgeTermOf<R>& t) {
       store(&l[k], t.l), store(&g11[k], t.g11), store(&g12[k], t.g12), store(&g22[k], t.g22), store(&s[k], t.s);
     }
     void copy(int from, int to) { set(to, get(from)); }
@@ -93,8 +114,8 @@ class QuadRelocator {
   struct Wedges {
     std::array<double, OrderedStar::most> ox, oy;  ///< the opposite vertex
     std::array<Jet, OrderedStar::most> jet;        ///< sizes there
-    std::array<double, 2 * OrderedStar::most> fx, fy;
-    Terms<2 * OrderedStar::most> far;
+    std::array<double, 2 * OrderedStar::most + 2> fx, fy;
+    Terms<2 * OrderedStar::most + 2> far;
     std::array<double, OrderedStar::most> across;  ///< from spoke to spoke, where shapes count
     std::array<double, OrderedStar::most + 1> energy;  ///< of the three corners that change, where the vertex was tried last
   };
@@ -102,8 +123,19 @@ class QuadRelocator {
   bool collect(VertexId v);
   [[nodiscard]] bool shaped() const { return weights_.shape > 0.0; }
   [[nodiscard]] double length(const Point<2>& p, const Jet& P, const Point<2>& q, const Jet& Q);
-  [[nodiscard]] JetOf<Pair> jets(int k) const;
+  /// The spoke that comes again as number k.
+  [[nodiscard]] int again(int k) const { return k < spoke_count_ ? k : (star_.closed ? k % spoke_count_ : spoke_count_ - 1); }
+  /// Spokes that are there for four lanes from any fourth on, and one more.
+  [[nodiscard]] int padded() const { return ((spoke_count_ + 3) & ~3) + 1; }
   [[nodiscard]] double try_at(const Point<2>& x, double limit);
+  template <class R>
+  [[nodiscard]] PILLOWMESH_LANES double sum_of_corners(const Point<2>& x, const Row& ex, const Row& ey, double limit);
+  template <class R>
+  PILLOWMESH_LANES void add_corners(VertexId v, const Point<2>& x, Derivatives& sum);
+#if defined(PILLOWMESH_WIDE)
+  [[nodiscard]] double wide_sum_of_corners(const Point<2>& x, const Row& ex, const Row& ey, double limit);
+  void wide_add_corners(VertexId v, const Point<2>& x, Derivatives& sum);
+#endif
   void keep(VertexId v, const Point<2>& x);
   void add_shapes(const Point<2>& x, const Jet& here, Derivatives& sum);
   void touch_cell(CellId c);
