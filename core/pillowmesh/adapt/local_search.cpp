@@ -25,7 +25,7 @@ constexpr double kPoorCell = 0.1;     ///< energy above which a cell is looked a
 constexpr double kCellBonus = 0.15;
 
 /// Logarithm of the odds below which a change is not tried, when hot and when cold.
-constexpr double kLeastOdds = -2.5, kLeastOddsCold = -3.5;
+constexpr double kLeastOdds = -2.2, kLeastOddsCold = -3.5;
 
 int square(int a) { return a * a; }
 

@@ -8,10 +8,12 @@ namespace pillowmesh {
 namespace {
 
 constexpr std::int64_t kMovesPerStep = 4000;
-constexpr int kRelaxSweeps = 5;
 
 /// Rows come and go in cold passes only: those that end on the boundary can be joined there.
 constexpr int kNoRows = 1 << 20;
+
+/// Up to so many cells rows are cheap: the whole mesh is relocated for some.
+constexpr CellId kFewCells = 2000;
 
 /// Of a coarse mesh that will be diced, of one that was diced, and of one that layers have made, or that was given. Coarse
 /// meshes are not polished: the finer ones change shapes anyway.
@@ -19,32 +21,36 @@ Budget budget_of(Effort effort, bool diced, int halvings) {
   const bool coarse = halvings > 0;
   switch (effort) {
     case Effort::fast:
-      if (diced) return {0, 0, 0, 1, coarse ? 1 : 0, 0, 0, 4};
-      return {6, 0.3, 0.1, 3, 2, 0, 4, 2};
+      if (diced) return {0, 0, 0, 1, coarse ? 1 : 0, 0, 2, 0, 2, kFewCells};
+      return {6, 0.3, 0.1, 3, 2, 0, 5, 4, 2, kFewCells};
     case Effort::normal:
-      if (diced) return {30, 0.4, 0.08, 10, 3, coarse ? 0 : 2, 4, 20};
-      return {30, 0.5, 0.06, 8, 4, coarse ? 0 : 2, 20, 20};
+      if (coarse) return {4, 0.4, 0.1, kNoRows, 2, 0, 5, 3, 6};
+      if (diced) return {36, 0.3, 0.15, kNoRows, 1, 2, 5, 0, 8};
+      return {30, 0.5, 0.06, 8, 4, 2, 5, 20, 20};
     case Effort::best: break;
   }
-  if (coarse) return {15, 0.6, 0.05, kNoRows, 20, 0, 40, 100};
-  if (diced) return {250, 0.4, 0.12, kNoRows, 20, 6, 20, 100};
-  return {60, 0.6, 0.05, kNoRows, 20, 6, 40, 100};
+  if (coarse) return {15, 0.6, 0.05, kNoRows, 20, 0, 5, 40, 100};
+  if (diced) return {250, 0.4, 0.15, kNoRows, 20, 6, 5, 20, 100};
+  return {60, 0.6, 0.05, kNoRows, 20, 6, 5, 40, 100};
 }
 
 /// Weight of alignment in the energy when the option asks for all of it, to begin with. In coarse meshes the directions of
 /// the metric turn more from cell to cell: there it draws less, and weighs more.
 constexpr double kAlignment = 0.4, kCoarseAlignment = 0.6;
-/// Afterwards it is kAlignment times the cube of the misalignment that is left, in units of this: where the metric turns
-/// little, alignment is had for less, and where it turns much, it is not given up.
-constexpr double kMisalignment = 0.11;
+/// Afterwards it is kAlignment times this power of the misalignment that is left, over the one below: where the metric turns
+/// little, alignment is had for less, and where it turns much, it is not given up. With little time the sizes come first.
+constexpr double kAlignmentPower = 3.0;
+double common_misalignment(Effort effort) { return effort == Effort::best ? 0.1085 : 0.12; }
 constexpr double kLeastAlignment = 0.05, kMostAlignment = 1.5;
 constexpr int kPassesToBalance = 5;
 
 /// Weight of shapes below EnergyWeights::shape_floor in the polish.
 constexpr double kShape = 10.0;
-/// Weight of obtuse corners at the end: a thousandth of cv buys one or two of eta. Of that more is taken where nothing is
-/// aligned.
-double obtuse_weight(double align) { return 0.05 + 0.2 * (1.0 - align); }
+/// Weight of obtuse corners at the end: a thousandth of cv buys one or two of eta. Where nothing is aligned, and with little
+/// time, sizes are the better for it.
+double obtuse_weight(const AdaptOptions& options) {
+  return (options.effort == Effort::best ? 0.08 : 0.17) + 0.18 * (1.0 - options.align);
+}
 
 Background background_of(const Mesh<2>& mesh, const MetricField<2>& field) {
   Point<2> low = mesh.points[0], high = low;
@@ -83,16 +89,17 @@ double Schedule::temperature(int pass) const {
 void Schedule::begin_sweep() {
   recorder_.before_relocation(mesh_);
   sweeping_ = true;
-  next_vertex_ = 0;
+  next_cell_ = 0;
+  trial_.begin_sweep();
   gain_ = 0.0;
 }
 
 /// \return false when the sweep is over.
 bool Schedule::continue_sweep() {
-  const VertexId stop = std::min<VertexId>(mesh_.vertex_count(), next_vertex_ + kMovesPerStep);
-  gain_ += trial_.sweep(next_vertex_, stop);
-  next_vertex_ = stop;
-  if (stop < mesh_.vertex_count()) return true;
+  const CellId stop = std::min<CellId>(mesh_.cell_count(), next_cell_ + kMovesPerStep);
+  gain_ += trial_.sweep(next_cell_, stop);
+  next_cell_ = stop;
+  if (stop < mesh_.cell_count()) return true;
   end_sweep();
   return false;
 }
@@ -126,16 +133,17 @@ void Schedule::next_pass() {
 
 /// A third of the way, in logarithms, to the weight that goes with the misalignment of now.
 void Schedule::balance_alignment() {
-  const double left = pass_ > 0 && options_.align > 0.0 ? trial_.relocator.misalignment() / kMisalignment : 0.0;
+  const double left = pass_ > 0 && options_.align > 0.0 ? trial_.relocator.misalignment() : 0.0;
   if (left == 0.0) return;  // isotropic, or not asked for
-  const double weight = options_.align * std::clamp(kAlignment * left * left * left, kLeastAlignment, kMostAlignment);
+  const double drawn = kAlignment * portable::pow(left / common_misalignment(options_.effort), kAlignmentPower);
+  const double weight = options_.align * std::clamp(drawn, kLeastAlignment, kMostAlignment);
   alignment_ *= portable::pow(weight / alignment_, 1.0 / 3.0);
   trial_.relocator.set_alignment(alignment_);
 }
 
 void Schedule::end_pass() {
   const bool cold = pass_ >= budget_.hot_passes;
-  const bool rows = cold || (pass_ + 1) % budget_.rows_every == 0;
+  const bool rows = (cold || (pass_ + 1) % budget_.rows_every == 0) && mesh_.cell_count() <= budget_.rows_up_to;
   const std::int64_t chords = rows ? search_.chord_pass() : 0;
   ++pass_;
   if (cold && search_.kept() + chords == 0) pass_ = budget_.hot_passes + budget_.cold_passes;
@@ -149,13 +157,13 @@ void Schedule::end_polish_round() {
     sweeps_ = 0;
     EnergyWeights exact = trial_.relocator.weights();
     exact.rough = 0.5;
-    if (budget_.polish_rounds > 0) exact.shape = kShape, exact.obtuse = obtuse_weight(options_.align);
+    if (budget_.polish_rounds > 0) exact.shape = kShape, exact.obtuse = obtuse_weight(options_);
     trial_.relocator.measure_all(exact);
     descent_.restart();
     return;
   }
   if (polish_++ == 0) {
-    trial_.relocator.measure_all({.alignment = alignment_, .shape = kShape, .obtuse = obtuse_weight(options_.align)});
+    trial_.relocator.measure_all({.alignment = alignment_, .shape = kShape, .obtuse = obtuse_weight(options_)});
     trial_.touch_all();
   }
   search_.begin_pass(0.0);
@@ -165,10 +173,10 @@ bool Schedule::step() {
   switch (stage_) {
     case Stage::relax:
       // Sweeps take out what is crumpled, descent then moves whole rows.
-      if (sweeps_ < kRelaxSweeps) {
+      if (sweeps_ < budget_.sweeps) {
         if (!sweeping_) begin_sweep();
         continue_sweep();
-      } else if (!descend(kRelaxSweeps + budget_.relax_sweeps)) {
+      } else if (!descend(budget_.sweeps + budget_.relax_sweeps)) {
         next_pass();
       }
       break;

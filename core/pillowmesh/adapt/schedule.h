@@ -1,6 +1,7 @@
 // The order of full adaptation in 2D after the layers: relaxation, passes hot and cold, polish.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -18,7 +19,8 @@ struct Budget {
   double hot, cool;
   int rows_every;  ///< hot pass rows are removed and doubled
   int cold_passes, polish_rounds;
-  int relax_sweeps, settle_sweeps;
+  int sweeps, relax_sweeps, settle_sweeps;  ///< of single vertices at the beginning; of all at once, then and at the end
+  CellId rows_up_to = std::numeric_limits<CellId>::max();  ///< cells that the mesh may have
 };
 
 /// Improves a quad mesh that layers have refined, step by step. The mesh is valid between steps; it may hold dead cells
@@ -69,7 +71,7 @@ class Schedule {
   std::map<std::string, std::int64_t> counted_;  ///< of the operations
   int sweeps_ = 0;    ///< in this stage
   bool sweeping_ = false;
-  VertexId next_vertex_ = 0;
+  CellId next_cell_ = 0;
   double gain_ = 0.0;  ///< of the sweep
 };
 

@@ -1,6 +1,7 @@
 #include "pillowmesh/adapt/trial.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "pillowmesh/coarsen/diagonal_collapse.h"
 #include "pillowmesh/mesh/portable_math.h"
@@ -232,14 +233,23 @@ bool Trial::attempt_at_large(Operator op, double threshold) {
   return good;
 }
 
-double Trial::sweep(VertexId first, VertexId last) {
+void Trial::begin_sweep() {
+  swept_.resize(mesh_.points.size(), 0);
+  ++sweep_;
+}
+
+/// By cells, since what belongs to neighbours lies together there: after dicing, vertices with neighbouring numbers do not.
+double Trial::sweep(CellId first, CellId last) {
   journal_.begin();
   relocator.begin();
   // A displacement of the whole mesh is little at each vertex: here small gains count.
   const double relaxation = std::exchange(relocator.relaxation, 1.5), rest = std::exchange(relocator.rest, 1e-9);
   double gain = 0.0;
-  for (VertexId v = first; v < last; ++v)
-    if (mesh_.vertex_cell[v] != kNone) gain += relocator.relocate(v), ++moves;
+  for (CellId c = first; c < last; ++c) {
+    if (!mesh_.alive(c)) continue;
+    for (const VertexId v : mesh_.cells[c])
+      if (std::exchange(swept_[v], sweep_) != sweep_) gain += relocator.relocate(v), ++moves;
+  }
   relocator.relaxation = relaxation;
   relocator.rest = rest;
   journal_.begin();

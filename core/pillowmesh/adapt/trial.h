@@ -28,8 +28,11 @@ class Trial {
   /// Cost: the size of the mesh.
   bool attempt_at_large(Operator op, double threshold);
 
-  /// Relocates vertices first to last - 1 once. \return by how much the energy fell.
-  double sweep(VertexId first, VertexId last);
+  /// The next sweep is over all vertices again.
+  void begin_sweep();
+  /// Relocates the vertices of cells first to last - 1, those that this sweep has not come to yet, once.
+  /// \return by how much the energy fell.
+  double sweep(CellId first, CellId last);
 
   /// Cells that a vertex should have: 4 inside, 2 on a curve, at a corner as many as fill it with right angles.
   [[nodiscard]] int ideal(VertexId v) const { return ideal_[v]; }
@@ -68,6 +71,8 @@ class Trial {
   std::vector<VertexId> near_, far_;  ///< the vertices of the change; those, and some rings around them
   std::vector<Index> stamp_;
   Index stamp_now_ = 0;
+  std::vector<Index> swept_;
+  Index sweep_ = 0;
   std::vector<std::int8_t> ideal_;
   std::vector<Index> changed_;
   Index clock_ = 1;

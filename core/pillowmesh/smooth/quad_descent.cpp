@@ -1,6 +1,7 @@
 #include "pillowmesh/smooth/quad_descent.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "pillowmesh/mesh/slide.h"
 
@@ -18,9 +19,9 @@ bool QuadDescent::find_direction() {
   start_.assign(n, Point<2>::Zero());
   double product = 0.0, change = 0.0;
   QuadRelocator::Derivatives d;
-  for (VertexId v = 0; v < mesh_.vertex_count(); ++v) {
+  const auto add = [&](VertexId v) {
     const VertexSupport& support = mesh_.support[v];
-    if (mesh_.vertex_cell[v] == kNone || support.dim == 0 || !relocator_.derivatives(v, d)) continue;
+    if (support.dim == 0 || !relocator_.derivatives(v, d)) return;
     Point<2> r = -d.gradient, z;
     if (support.dim == 2) {
       z = d.step();
@@ -33,6 +34,12 @@ bool QuadDescent::find_direction() {
     change += z.dot(r - residual_[v]);
     residual_[v] = r;
     start_[v] = z;
+  };
+  seen_.assign(n, 0);
+  for (CellId c = 0; c < mesh_.cell_count(); ++c) {
+    if (!mesh_.alive(c)) continue;
+    for (const VertexId v : mesh_.cells[c])
+      if (std::exchange(seen_[v], 1) == 0) add(v);
   }
   if (!(product > 0)) return false;
   double beta = first || !(last_product_ > 0) ? 0.0 : std::max(0.0, change / last_product_);

@@ -31,6 +31,7 @@ class QuadDescent {
   QuadRelocator& relocator_;
   std::vector<Point<2>> residual_, direction_, start_;
   std::vector<Index> start_anchor_;
+  std::vector<std::uint8_t> seen_;
   double slope_ = 0.0;      ///< of the energy along the direction
   double last_product_ = 0.0;
   double last_step_ = 0.5;

@@ -5,6 +5,14 @@
 #include "pillowmesh/mesh/slide.h"
 
 namespace pillowmesh {
+#if defined(PILLOWMESH_WIDE)
+namespace {
+
+const bool kWide = __builtin_cpu_supports("avx2") != 0;
+
+}  // namespace
+#endif
+
 QuadRelocator::QuadRelocator(Mesh<2>& mesh, Background& background, const Weights& weights)
     : mesh_(mesh), background_(background) {
   measure_all(weights);
@@ -52,7 +60,7 @@ void QuadRelocator::set_alignment(double alignment) {
   begin();
   std::fill(cell_stamp_.begin(), cell_stamp_.end(), stamp_);  // nothing here is taken back
   for (CellId c = 0; c < mesh_.cell_count(); ++c)
-    if (mesh_.alive(c)) add_up(c);
+    if (mesh_.alive(c)) refresh(c);
   begin();
 }
 
@@ -105,33 +113,80 @@ double QuadRelocator::measure_cell(CellId c) {
     edges_.resize(mesh_.cells.size());
   }
   touch_cell(c);
-  std::array<VertexId, 4> v;
-  for (int i = 0; i < 4; ++i) v[i] = around(mesh_, c, i);
+  place_sides(c);
   for (int i = 0; i < 4; ++i) {
-    const VertexId p = v[i], q = v[(i + 1) & 3];
-    const Point<2> e = mesh_.points[q] - mesh_.points[p];
-    edges_[c][i] = edge_term(background_, leaf_[p], weights_.rough, mesh_.points[p][0], mesh_.points[p][1], e[0], e[1], size_[p], size_[q]);
+    const Jet& j = size_[around(mesh_, c, i)];
+    sides_.jet.set(i, j);
+    sides_.jet.set(i + 4, j);
   }
-  add_up(c);
-  return energy_[c];
+  const Index leaf = leaf_[mesh_.cells[c][0]];
+#if defined(PILLOWMESH_WIDE)
+  if (kWide)
+    wide_measure_sides(leaf);
+  else
+#endif
+    measure_sides<Pair>(leaf);
+  for (int i = 0; i < 4; ++i) {
+    edges_[c][i] = sides_.term.get(i);
+    sides_.term.copy(i, i + 4);
+  }
+  return energy_[c] = add_up(c);
 }
 
-void QuadRelocator::add_up(CellId c) {
-  std::array<Point<2>, 4> p;
-  for (int i = 0; i < 4; ++i) p[i] = mesh_.points[around(mesh_, c, i)];
+void QuadRelocator::place_sides(CellId c) {
+  for (int i = 0; i < 4; ++i) {
+    const Point<2>& p = mesh_.points[around(mesh_, c, i)];
+    sides_.px[i] = sides_.px[i + 4] = p[0];
+    sides_.py[i] = sides_.py[i + 4] = p[1];
+  }
+  for (int i = 0; i < 4; ++i) {
+    sides_.ex[i] = sides_.ex[i + 4] = sides_.px[i + 1] - sides_.px[i];
+    sides_.ey[i] = sides_.ey[i + 4] = sides_.py[i + 1] - sides_.py[i];
+  }
+}
+
+template <class R>
+void QuadRelocator::measure_sides(Index leaf) {
+  for (int k = 0; k < 4; k += kWidth<R>)
+    sides_.term.store_lanes(k, edge_term<R>(background_, leaf, weights_.rough, load<R>(&sides_.px[k]), load<R>(&sides_.py[k]),
+                                            load<R>(&sides_.ex[k]), load<R>(&sides_.ey[k]), sides_.jet.lanes<R>(k),
+                                            sides_.jet.lanes<R>(k + 1)));
+}
+
+template <class R>
+double QuadRelocator::sum_of_cell() const {
   double sum = 0.0;
-  for (int i = 0; i < 4; ++i)
-    sum += corner_energy(p[(i + 1) & 3] - p[i], edges_[c][i], p[(i + 3) & 3] - p[i], edges_[c][(i + 3) & 3], weights_);
-  if (shaped()) {
-    std::array<Jet, 4> H;
-    for (int i = 0; i < 4; ++i) H[i] = size_[around(mesh_, c, i)];
-    const std::array<double, 2> across{length(p[1], H[1], p[3], H[3]), length(p[0], H[0], p[2], H[2])};
-    for (int i = 0; i < 4; ++i) sum += shape_energy(edges_[c][i].l, edges_[c][(i + 3) & 3].l, across[i & 1], weights_);
+  for (int k = 0; k < 4; k += kWidth<R>) {
+    const R e1x = load<R>(&sides_.ex[k]), e1y = load<R>(&sides_.ey[k]), e2x = -load<R>(&sides_.ex[k + 3]),
+            e2y = -load<R>(&sides_.ey[k + 3]);
+    const R E = corner_energy<R>(e1x * e2y - e1y * e2x, e1x, e1y, sides_.term.lanes<R>(k), e2x, e2y, sides_.term.lanes<R>(k + 3),
+                                 weights_);
+    for (int i = 0; i < kWidth<R>; ++i) sum += E[i];
   }
-  energy_[c] = sum;
+  return sum;
 }
 
-double QuadRelocator::length(const Point<2>& p, const Jet& P, const Point<2>& q, const Jet& Q) {
+/// Energy of the cell whose sides are in place, with their terms.
+double QuadRelocator::add_up(CellId c) const {
+  const Sides& s = sides_;
+  if (weights_.delta == 0.0)
+    for (int i = 0; i < 4; ++i)
+      if (!(s.ex[i] * -s.ey[i + 3] + s.ey[i] * s.ex[i + 3] > 0)) return std::numeric_limits<double>::infinity();
+#if defined(PILLOWMESH_WIDE)
+  double sum = kWide ? wide_sum_of_cell() : sum_of_cell<Pair>();
+#else
+  double sum = sum_of_cell<Pair>();
+#endif
+  if (!shaped()) return sum;
+  std::array<Point<2>, 4> p;
+  std::array<Jet, 4> H;
+  for (int i = 0; i < 4; ++i) p[i] = {s.px[i], s.py[i]}, H[i] = size_[around(mesh_, c, i)];
+  const std::array<double, 2> across{length(p[1], H[1], p[3], H[3]), length(p[0], H[0], p[2], H[2])};
+  for (int i = 0; i < 4; ++i) sum += shape_energy(s.term.l[i], s.term.l[i + 3], across[i & 1], weights_);
+  return sum;
+}
+
+double QuadRelocator::length(const Point<2>& p, const Jet& P, const Point<2>& q, const Jet& Q) const {
   const Point<2> e = q - p;
   Index leaf = kNone;
   return edge_term(background_, leaf, weights_.rough, p[0], p[1], e[0], e[1], P, Q).l;
@@ -139,7 +194,12 @@ double QuadRelocator::length(const Point<2>& p, const Jet& P, const Point<2>& q,
 
 void QuadRelocator::refresh(CellId c) {
   touch_cell(c);
-  add_up(c);
+  place_sides(c);
+  for (int i = 0; i < 4; ++i) {
+    sides_.term.set(i, edges_[c][i]);
+    sides_.term.set(i + 4, edges_[c][i]);
+  }
+  energy_[c] = add_up(c);
 }
 
 void QuadRelocator::forget_cell(CellId c) {
@@ -208,9 +268,6 @@ PILLOWMESH_LANES JetOf<R> everywhere(const JetOf<double>& j) {
           same<R>(j.cx), same<R>(j.ay), same<R>(j.by), same<R>(j.cy)};
 }
 
-#if defined(PILLOWMESH_WIDE)
-const bool kWide = __builtin_cpu_supports("avx2") != 0;
-#endif
 
 }  // namespace
 
@@ -338,6 +395,8 @@ PILLOWMESH_WIDE double QuadRelocator::wide_sum_of_corners(const Point<2>& x, con
 PILLOWMESH_WIDE void QuadRelocator::wide_add_corners(VertexId v, const Point<2>& x, Derivatives& sum) {
   add_corners<Four>(v, x, sum);
 }
+PILLOWMESH_WIDE void QuadRelocator::wide_measure_sides(Index leaf) { measure_sides<Four>(leaf); }
+PILLOWMESH_WIDE double QuadRelocator::wide_sum_of_cell() const { return sum_of_cell<Four>(); }
 #endif
 
 void QuadRelocator::add_shapes(const Point<2>& x, const Jet& here, Derivatives& sum) {

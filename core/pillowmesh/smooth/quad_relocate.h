@@ -70,8 +70,9 @@ class QuadRelocator {
   static constexpr int kMost = OrderedStar::most + 8;  ///< spokes; the first come again after the last
   using Row = std::array<double, kMost>;
   /// Sizes and their derivatives.
-  struct JetRows {
-    Row a, b, c, ax, bx, cx, ay, by, cy;
+  template <int N>
+  struct Jets {
+    std::array<double, N> a, b, c, ax, bx, cx, ay, by, cy;
     void set(int k, const Jet& j) {
       a[k] = j.a, b[k] = j.b, c[k] = j.c;
       ax[k] = j.ax, bx[k] = j.bx, cx[k] = j.cx, ay[k] = j.ay, by[k] = j.by, cy[k] = j.cy;
@@ -86,8 +87,8 @@ class QuadRelocator {
   /// The edges at the vertex, counterclockwise, each number in a row of its own.
   struct Spokes {
     std::array<VertexId, kMost> end;
-    Row qx, qy;   ///< positions of the ends
-    JetRows jet;  ///< sizes there
+    Row qx, qy;       ///< positions of the ends
+    Jets<kMost> jet;  ///< sizes there
   };
   /// Edge terms, each number in a row of its own.
   template <int N>
@@ -119,10 +120,16 @@ class QuadRelocator {
     std::array<double, OrderedStar::most> across;  ///< from spoke to spoke, where shapes count
     std::array<double, OrderedStar::most + 1> energy;  ///< of the three corners that change, where the vertex was tried last
   };
+  /// The vertices and sides of a cell, counterclockwise twice.
+  struct Sides {
+    std::array<double, 8> px, py, ex, ey;
+    Jets<8> jet;
+    Terms<8> term;
+  };
 
   bool collect(VertexId v);
   [[nodiscard]] bool shaped() const { return weights_.shape > 0.0; }
-  [[nodiscard]] double length(const Point<2>& p, const Jet& P, const Point<2>& q, const Jet& Q);
+  [[nodiscard]] double length(const Point<2>& p, const Jet& P, const Point<2>& q, const Jet& Q) const;
   /// The spoke that comes again as number k.
   [[nodiscard]] int again(int k) const { return k < spoke_count_ ? k : (star_.closed ? k % spoke_count_ : spoke_count_ - 1); }
   /// Spokes that are there for four lanes from any fourth on, and one more.
@@ -132,7 +139,13 @@ class QuadRelocator {
   [[nodiscard]] PILLOWMESH_LANES double sum_of_corners(const Point<2>& x, const Row& ex, const Row& ey, double limit);
   template <class R>
   PILLOWMESH_LANES void add_corners(VertexId v, const Point<2>& x, Derivatives& sum);
+  template <class R>
+  PILLOWMESH_LANES void measure_sides(Index leaf);
+  template <class R>
+  [[nodiscard]] PILLOWMESH_LANES double sum_of_cell() const;
 #if defined(PILLOWMESH_WIDE)
+  void wide_measure_sides(Index leaf);
+  [[nodiscard]] double wide_sum_of_cell() const;
   [[nodiscard]] double wide_sum_of_corners(const Point<2>& x, const Row& ex, const Row& ey, double limit);
   void wide_add_corners(VertexId v, const Point<2>& x, Derivatives& sum);
 #endif
@@ -140,7 +153,8 @@ class QuadRelocator {
   void add_shapes(const Point<2>& x, const Jet& here, Derivatives& sum);
   void touch_cell(CellId c);
   void touch_vertex(VertexId v);
-  void add_up(CellId c);
+  void place_sides(CellId c);
+  [[nodiscard]] double add_up(CellId c) const;
 
   Mesh<2>& mesh_;
   Background& background_;
@@ -154,6 +168,7 @@ class QuadRelocator {
   Spokes spokes_;
   Terms<kMost> now_, next_;  ///< of the spokes
   Wedges wedges_;
+  Sides sides_;
   int spoke_count_ = 0;
   Jet size_at_{};
   Index leaf_at_ = kNone;
