@@ -7,6 +7,7 @@
 #include "pillowmesh/mesh/topology.h"
 #include "pillowmesh/mesh/validate.h"
 #include "pillowmesh/metric/length.h"
+#include "pillowmesh/quality/report.h"
 #include "pillowmesh/smooth/quad_descent.h"
 
 namespace quad_relocate_test {
@@ -69,9 +70,10 @@ TEST_CASE("cells twice too long cost what the formula of the energy says") {
 TEST_CASE("the gradient of the energy agrees with finite differences") {
   auto mesh = make_grid<2>({6, 6}, Point<2>(0, 0), Point<2>(1, 1));
   shake(mesh, 0.4, 5);
-  for (const auto& [alignment, shape] : {std::pair(0.0, 0.0), std::pair(0.5, 0.0)}) {
+  for (const EnergyWeights& weights : {EnergyWeights{}, EnergyWeights{.alignment = 0.5},
+                                       EnergyWeights{.alignment = 0.5, .shape = 10.0, .shape_floor = 0.9, .obtuse = 0.5}}) {
     auto metric = background(mesh, "h1 = 0.1; h2 = 0.2; theta = 0.4");  // the angle between edges uses one metric
-    QuadRelocator relocator(mesh, metric, {.alignment = alignment, .shape = shape});
+    QuadRelocator relocator(mesh, metric, weights);
     for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
       if (mesh.support[v].dim != 2) continue;
       QuadRelocator::Derivatives d;
@@ -91,6 +93,24 @@ TEST_CASE("the gradient of the energy agrees with finite differences") {
       }
     }
   }
+}
+
+TEST_CASE("another weight of alignment gives the energies that measuring everything with it gives") {
+  auto mesh = make_grid<2>({6, 6}, Point<2>(0, 0), Point<2>(1, 1));
+  shake(mesh, 0.4, 6);
+  const char* text = "h1 = 0.1; h2 = 0.05 + 0.4*x; theta = 0.4 + x";
+  auto metric = background(mesh, text);
+  QuadRelocator relocator(mesh, metric, {.alignment = 0.1}), other(mesh, metric, {.alignment = 0.7});
+  REQUIRE(relocator.total_energy() < 0.99 * other.total_energy());
+  relocator.set_alignment(0.7);
+  for (CellId c = 0; c < mesh.cell_count(); ++c) CHECK(relocator.energy(c) == other.energy(c));
+  CHECK(relocator.misalignment() == Approx(measure(mesh, *MetricField<2>::from_formula(text)).misalignment).epsilon(0.05));
+}
+
+TEST_CASE("a mesh along an isotropic metric has no misalignment") {
+  auto mesh = make_grid<2>({3, 3}, Point<2>(0, 0), Point<2>(1, 1));
+  auto metric = background(mesh, "h = 0.2 + x");
+  CHECK(QuadRelocator(mesh, metric, {}).misalignment() == 0.0);
 }
 
 namespace {
@@ -248,6 +268,23 @@ TEST_CASE("descent spreads rows over the whole mesh where sweeps hardly begin to
     return relocator.total_energy();
   };
   CHECK(relaxed(0, 100) < 0.2 * relaxed(100, 0));
+}
+
+TEST_CASE("descent that is begun anew goes down where the mesh was changed meanwhile") {
+  Mesh<2> mesh = make_grid<2>({12, 12}, Point<2>(0, 0), Point<2>(1, 1));
+  auto metric = background(mesh, "h = 1/12");
+  QuadRelocator relocator(mesh, metric, {});
+  QuadDescent descent(mesh, relocator);
+  shake(mesh, 0.1, 8);
+  relocator.measure_all(relocator.weights());
+  for (int i = 0; i < 60; ++i) descent.iterate();
+  shake(mesh, 0.3, 9);
+  relocator.measure_all(relocator.weights());
+  const double shaken = relocator.total_energy();
+  descent.restart();
+  CHECK(descent.iterate() > 0.1 * shaken);
+  for (int i = 0; i < 60; ++i) descent.iterate();
+  CHECK(relocator.total_energy() < 1e-6 * shaken);
 }
 
 }  // namespace quad_relocate_test

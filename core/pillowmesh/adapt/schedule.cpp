@@ -41,7 +41,7 @@ constexpr double kAlignment = 0.4, kCoarseAlignment = 0.6;
 /// little, alignment is had for less, and where it turns much, it is not given up. With little time the sizes come first.
 constexpr double kAlignmentPower = 3.0;
 double common_misalignment(Effort effort) { return effort == Effort::best ? 0.1085 : 0.12; }
-constexpr double kLeastAlignment = 0.05, kMostAlignment = 1.5;
+constexpr double kLeastAlignment = 0.05, kMostAlignment = 0.75;
 constexpr int kPassesToBalance = 5;
 
 /// Weight of shapes below EnergyWeights::shape_floor in the polish.
