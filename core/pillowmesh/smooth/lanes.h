@@ -118,4 +118,9 @@ PILLOWMESH_LANES Four larger(const Four& a, const Four& b) {
   return Four{larger(a[0], b[0]), larger(a[1], b[1]), larger(a[2], b[2]), larger(a[3], b[3])};
 }
 
+#if defined(PILLOWMESH_WIDE)
+/// The machine that the program runs on has registers of 256 bits.
+inline const bool kWide = __builtin_cpu_supports("avx2") != 0;
+#endif
+
 }  // namespace pillowmesh
