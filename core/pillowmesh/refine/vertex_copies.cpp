@@ -292,7 +292,7 @@ class VertexPlanner {
 
   /// True if the edge (c, corner, axis) lies on the entity of `support`.
   bool stays_on(VertexSupport w, VertexSupport support, CellId c, int corner, int axis) const {
-    if (w.dim == Dim) return false;
+    if (w.dim == Dim || support.dim == 0) return false;  // nothing else lies on a corner
     PatchId found[2];
     int count = 0;
     for_each_cell_at_edge(mesh_, {c, C::edge_at(corner, axis)}, [&](CellId n, int e) {
