@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::int64_t kMovesPerStep = 4000;
 
-/// Rows come and go in cold passes only: those that end on the boundary can be joined there.
+/// For rows_every: rows come and go in cold passes only. Those that end on the boundary can be joined there at any time.
 constexpr int kNoRows = 1 << 20;
 
 /// Up to so many cells rows are cheap: the whole mesh is relocated for some.
@@ -48,8 +48,8 @@ constexpr int kPassesToBalance = 5;
 
 /// Weight of shapes below EnergyWeights::shape_floor in the polish.
 constexpr double kShape = 10.0;
-/// Weight of obtuse corners at the end: a thousandth of cv buys one or two of eta. Where nothing is aligned, and with little
-/// time, sizes are the better for it.
+/// Weight of obtuse corners at the end: a thousandth of cv buys one or two of eta. Of that more is
+/// taken where nothing is aligned, since cv is low there, and with little time, since eta is.
 double obtuse_weight(const AdaptOptions& options) {
   return (options.effort == Effort::best ? 0.08 : 0.17) + 0.18 * (1.0 - options.align);
 }

@@ -17,10 +17,10 @@ namespace pillowmesh {
 struct Budget {
   int hot_passes;
   double hot, cool;
-  int rows_every;  ///< hot pass rows are removed and doubled
+  int rows_every;  ///< so many hot passes whole rows are removed and doubled
   int cold_passes, polish_rounds;
   int sweeps, relax_sweeps, settle_sweeps;  ///< of single vertices at the beginning; of all at once, then and at the end
-  CellId rows_up_to = std::numeric_limits<CellId>::max();  ///< cells that the mesh may have
+  CellId rows_up_to = std::numeric_limits<CellId>::max();  ///< cells that the mesh may have for that
 };
 
 /// Improves a quad mesh that layers have refined, step by step. The mesh is valid between steps; it may hold dead cells
