@@ -8,12 +8,14 @@
 #include "pillowmesh/coarsen/boundary_collapse.h"
 #include "pillowmesh/coarsen/chord_collapse.h"
 #include "pillowmesh/coarsen/diagonal_collapse.h"
+#include "pillowmesh/coarsen/partial_chord_collapse.h"
 #include "pillowmesh/mesh/compact.h"
 #include "pillowmesh/mesh/ordered_star.h"
 #include "pillowmesh/mesh/validate.h"
 #include "pillowmesh/reconnect/boundary_open.h"
 #include "pillowmesh/reconnect/chord_split.h"
 #include "pillowmesh/reconnect/open.h"
+#include "pillowmesh/reconnect/partial_chord_split.h"
 #include "pillowmesh/reconnect/rotate.h"
 
 namespace cavity_test {
@@ -61,6 +63,19 @@ void check_topology(const Mesh<2>& mesh) {
   }
 }
 
+/// Along side `side` of cell c and on, past as many edges to the left at each vertex as a regular one has.
+std::vector<VertexId> straight_path(const Mesh<2>& mesh, CellId c, int side, unsigned edges) {
+  std::vector<VertexId> path{around(mesh, c, side), around(mesh, c, side + 1)};
+  while (path.size() <= edges) {
+    const HalfFacetId twin = twin_of_side(mesh, c, side + 1);
+    if (twin < 0) break;
+    c = mesh.cell_of(twin);
+    side = (kFacetSide[mesh.facet_of(twin)] + 1) & 3;
+    path.push_back(around(mesh, c, side + 1));
+  }
+  return path;
+}
+
 /// A random operator somewhere. \return what it is called, nullptr when it is not legal there.
 const char* plan_any(const Mesh<2>& mesh, std::mt19937& random, std::vector<std::uint8_t>& marks, Cavity& cavity) {
   const CellId c = static_cast<CellId>(random() % mesh.cells.size());
@@ -69,7 +84,7 @@ const char* plan_any(const Mesh<2>& mesh, std::mt19937& random, std::vector<std:
   marks.resize(mesh.cells.size(), 0);
   Chord chord;
   OrderedStar star;
-  switch (random() % 15) {
+  switch (random() % 19) {
     case 0:
       find_chord(mesh, c, side, marks, chord);
       return plan_chord_collapse(mesh, chord, cavity) ? "chord collapse" : nullptr;
@@ -89,6 +104,18 @@ const char* plan_any(const Mesh<2>& mesh, std::mt19937& random, std::vector<std:
     }
     case 8:
     case 9: return plan_boundary_collapse(mesh, around(mesh, c, side), cavity) ? "boundary collapse" : nullptr;
+    case 11:
+    case 12: {
+      find_chord(mesh, c, side, marks, chord);
+      const std::size_t first = random() % chord.cells.size(), most = 1 + random() % 6;
+      const std::size_t last = std::min(first + most, chord.cells.size());
+      const std::vector<ChordCell> part(chord.cells.begin() + first, chord.cells.begin() + last);
+      return plan_partial_chord_collapse(mesh, part, random() % 2, cavity) ? "partial chord collapse" : nullptr;
+    }
+    case 13:
+    case 14: return plan_partial_chord_split(mesh, straight_path(mesh, c, side, 2 + random() % 6), random() % 2, cavity)
+                        ? "partial chord split"
+                        : nullptr;
     case 10: return plan_boundary_opening(mesh, c, side, random() % 2 == 1, cavity) ? "boundary opening" : nullptr;
     default: return plan_rotation(mesh, c, side, static_cast<int>(random() % 2), cavity) ? "rotate" : nullptr;
   }
@@ -171,6 +198,14 @@ TEST_CASE("each operator changes the numbers of vertices and cells as its pictur
   CHECK((shorter.vertices == 20 && shorter.cells == 12));
   const Counts longer = apply([&](auto& m, auto& c) { return plan_chord_split(m, chord, c); });
   CHECK((longer.vertices == 30 && longer.cells == 20));
+  const std::vector<ChordCell> part(chord.cells.begin() + 1, chord.cells.begin() + 3);
+  const std::vector<VertexId> path = straight_path(grid, 8, 0, 3);
+  for (const int way : {0, 1}) {
+    const Counts fewer = apply([&](auto& m, auto& c) { return plan_partial_chord_collapse(m, part, way, c); });
+    CHECK((fewer.vertices == 23 && fewer.cells == 14));
+    const Counts more = apply([&](auto& m, auto& c) { return plan_partial_chord_split(m, path, way, c); });
+    CHECK((more.vertices == 27 && more.cells == 18));
+  }
   const Counts joined = apply([](auto& m, auto& c) { return plan_boundary_collapse(m, 2, c); });
   CHECK((joined.vertices == 23 && joined.cells == 15));
 }
@@ -208,6 +243,41 @@ TEST_CASE("a boundary opening takes a boundary collapse back") {
       CHECK(star.count == (mesh.support[w].dim == 2 ? 4 : (mesh.support[w].dim == 1 ? 2 : 1)));
     }
   }
+}
+
+TEST_CASE("a partial chord collapse takes a partial chord split back, and the split inverts no cell") {
+  const Mesh<2> grid = make_grid<2>({8, 4}, Point<2>(0, 0), Point<2>(8, 4));
+  for (const int way : {0, 1})
+    for (const unsigned edges : {2u, 3u, 6u}) {
+      INFO("way " << way << ", " << edges << " edges");
+      Mesh<2> mesh = grid;
+      Journal journal(mesh);
+      Cavity cavity;
+      std::vector<CellId> ids;
+      const std::vector<VertexId> path = straight_path(mesh, 17, 0, edges);
+      REQUIRE(plan_partial_chord_split(mesh, path, way, cavity));
+      REQUIRE(journal.apply(cavity, ids));
+      check_topology(mesh);
+      CHECK(validate(mesh).ok());
+      CHECK(counts(mesh).cells == 32 + static_cast<Index>(edges) - 1);
+      // The ends have a cell more, and the first and the last copy, on one side each, a cell less.
+      OrderedStar star;
+      std::array<int, 8> with{};
+      for (VertexId v = 0; v < mesh.vertex_count(); ++v)
+        if (mesh.support[v].dim == 2 && find_star(mesh, v, star)) ++with[star.count];
+      CHECK((with[3] == 2 && with[5] == 2 && with[4] == 21 + static_cast<int>(edges) - 1 - 4));
+      std::vector<ChordCell> part;
+      for (std::size_t k = ids.size() - (edges - 1); k < ids.size(); ++k) part.push_back({ids[k], 0});
+      REQUIRE(plan_partial_chord_collapse(mesh, part, way, cavity));
+      REQUIRE(journal.apply(cavity, ids));
+      check_topology(mesh);
+      compact(mesh);
+      CHECK(counts(mesh).cells == 32);
+      for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+        REQUIRE(find_star(mesh, v, star));
+        CHECK(star.count == (mesh.support[v].dim == 2 ? 4 : (mesh.support[v].dim == 1 ? 2 : 1)));
+      }
+    }
 }
 
 TEST_CASE("operators that the boundary forbids are refused") {

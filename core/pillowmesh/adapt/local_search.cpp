@@ -5,9 +5,11 @@
 #include "pillowmesh/coarsen/boundary_collapse.h"
 #include "pillowmesh/coarsen/chord_collapse.h"
 #include "pillowmesh/coarsen/diagonal_collapse.h"
+#include "pillowmesh/coarsen/partial_chord_collapse.h"
 #include "pillowmesh/reconnect/boundary_open.h"
 #include "pillowmesh/reconnect/chord_split.h"
 #include "pillowmesh/reconnect/open.h"
+#include "pillowmesh/reconnect/partial_chord_split.h"
 #include "pillowmesh/reconnect/rotate.h"
 
 namespace pillowmesh {
@@ -23,6 +25,12 @@ constexpr double kPoorCell = 0.1;     ///< energy above which a cell is looked a
 /// collapse; without this the search loses cells. Opening and collapsing again cannot go on for ever: what one may cost
 /// the other must gain.
 constexpr double kCellBonus = 0.15;
+
+/// Part of a row comes or goes in one change where up to so many cells are too wide or too narrow together; more are hardly
+/// ever kept. Each of its cells is worth more than one alone, as the whole row is judged early or not at all. Tried at this
+/// share of the cells: at all of them it takes a third of the time for nothing more.
+constexpr int kLongestPart = 4;
+constexpr double kPartBonus = 0.3, kShareOfParts = 0.3;
 
 /// Logarithm of the odds below which a change is not tried, when hot and when cold.
 constexpr double kLeastOdds = -2.2, kLeastOddsCold = -3.5;
@@ -81,6 +89,11 @@ bool LocalSearch::continue_pass(std::int64_t moves) {
     try_openings(c);
     try_boundary_collapses(c);
     try_boundary_openings(c);
+    if (random_.uniform() < kShareOfParts)
+      for (int side = 0; side < 4; ++side) {
+        if (mesh_.alive(c)) try_partial_collapses(c, side);
+        if (mesh_.alive(c)) try_partial_splits(c, side);
+      }
     looked_.resize(mesh_.cells.size(), 0);
     looked_[c] = now;
   }
@@ -183,6 +196,58 @@ void LocalSearch::try_boundary_openings(CellId c) {
         continue;
       if (!plan_boundary_opening(mesh_, c, i, turned == 1, trial_.cavity)) continue;
       if (attempt(Operator::boundary_open, allowance(kCellBonus))) return;
+    }
+  }
+}
+
+/// Of the cells from c on that a chord goes through which enters c through `side`.
+void LocalSearch::try_partial_collapses(CellId c, int side) {
+  part_.clear();
+  double rungs = 0.0, sides = 0.0;
+  const VertexId left = around(mesh_, c, side), right = around(mesh_, c, side + 1);
+  for (CellId at = c;;) {
+    part_.push_back({at, side});
+    const int cells = static_cast<int>(part_.size());
+    sides += 0.5 * (trial_.relocator.edge(at, side + 1).l + trial_.relocator.edge(at, side + 3).l);
+    for (int way = 0; way < 2 && cells > 1; ++way) {
+      const int excess = outlook_.excess(way == 0 ? left : right, -1) + outlook_.excess(around(mesh_, at, side + 2 + way), -1) + 2;
+      if (excess > kMostExcess) continue;
+      const double allowed = allowance(-kPartBonus * cells);
+      if (hopeless(Outlook::partial_collapse(cells, excess, allowed, rungs / (cells - 1), sides / cells)) ||
+          !plan_partial_chord_collapse(mesh_, part_, way, trial_.cavity))
+        continue;
+      if (attempt(Operator::partial_chord_collapse, allowed)) return;
+    }
+    const HalfFacetId twin = twin_of_side(mesh_, at, side + 2);
+    if (cells == kLongestPart || twin < 0) return;
+    rungs += trial_.relocator.edge(at, side + 2).l;
+    at = mesh_.cell_of(twin);
+    side = kFacetSide[mesh_.facet_of(twin)];
+  }
+}
+
+/// Of the paths along `side` of cell c and straight on through regular vertices.
+void LocalSearch::try_partial_splits(CellId c, int side) {
+  path_ = {around(mesh_, c, side), around(mesh_, c, side + 1)};
+  double along = trial_.relocator.edge(c, side).l, across = 0.0;
+  for (CellId at = c; static_cast<int>(path_.size()) <= kLongestPart + 1;) {
+    if (mesh_.support[path_.back()].dim != 2 || outlook_.valence(path_.back()) != 4) return;
+    across += 0.5 * trial_.relocator.edge(at, side + 1).l;
+    const HalfFacetId ahead = twin_of_side(mesh_, at, side + 1);
+    at = mesh_.cell_of(ahead);
+    side = kFacetSide[mesh_.facet_of(ahead)] + 1;
+    along += trial_.relocator.edge(at, side).l;
+    const HalfFacetId beside = twin_of_side(mesh_, at, side);
+    across += 0.5 * trial_.relocator.edge(mesh_.cell_of(beside), kFacetSide[mesh_.facet_of(beside)] + 1).l;
+    path_.push_back(around(mesh_, at, side + 1));
+    const int edges = static_cast<int>(path_.size()) - 1;
+    const int excess = outlook_.excess(path_.front(), 1) + outlook_.excess(path_.back(), 1) + 2;
+    for (int way = 0; way < 2 && edges > 2 && excess <= kMostExcess; ++way) {
+      const double allowed = allowance(kPartBonus * (edges - 1));
+      if (hopeless(Outlook::partial_split(edges, excess, allowed, across / (edges - 1), along / edges)) ||
+          !plan_partial_chord_split(mesh_, path_, way, trial_.cavity))
+        continue;
+      if (attempt(Operator::partial_chord_split, allowed)) return;
     }
   }
 }

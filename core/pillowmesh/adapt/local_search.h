@@ -40,6 +40,8 @@ class LocalSearch {
   void try_openings(CellId c);
   void try_boundary_collapses(CellId c);
   void try_boundary_openings(CellId c);
+  void try_partial_collapses(CellId c, int side);
+  void try_partial_splits(CellId c, int side);
 
   Mesh<2>& mesh_;
   Trial& trial_;
@@ -51,6 +53,8 @@ class LocalSearch {
   std::vector<Index> looked_;  ///< per cell: when its candidates were last tried
   std::vector<std::uint8_t> marks_;
   Chord chord_, across_;
+  std::vector<ChordCell> part_;
+  std::vector<VertexId> path_;
   int attempts_at_large_ = 0;  ///< rows that the whole mesh was relocated for
   int refused_at_large_ = 0;
 };

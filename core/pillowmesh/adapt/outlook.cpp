@@ -101,4 +101,12 @@ double Outlook::opening(const OrderedStar& star, int first, int last, int excess
   return -25.5 + 7.7 * allowed - 0.55 * excess - 18.9 * along + 24.1 * across + 2.2 * star.count;
 }
 
+double Outlook::partial_collapse(int cells, int excess, double allowed, double rungs, double sides) {
+  return 6.6 + 0.56 * cells - 0.77 * excess + 2.1 * allowed - (7.7 + 1.2 * (cells - 2)) * rungs - 4.1 * sides;
+}
+
+double Outlook::partial_split(int edges, int excess, double allowed, double across, double along) {
+  return 22.5 - 17.5 * edges - 0.47 * excess + 5.6 * allowed + (21.9 + 12.5 * (edges - 2)) * across - 19.4 * along;
+}
+
 }  // namespace pillowmesh

@@ -31,6 +31,10 @@ class Outlook {
   double collapse(CellId c, int i, int excess, double allowed);
   /// Of a vertex with this star, along the spokes `first` and `last`.
   double opening(const OrderedStar& star, int first, int last, int excess, double allowed);
+  /// Of so many cells in a row, whose rungs and other sides have these mean lengths.
+  static double partial_collapse(int cells, int excess, double allowed, double rungs, double sides);
+  /// Of a path of so many edges of this mean length, with edges of length `across` on both sides.
+  static double partial_split(int edges, int excess, double allowed, double across, double along);
 
  private:
   struct Fan {

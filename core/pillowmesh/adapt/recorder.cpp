@@ -143,7 +143,7 @@ void Recorder<Dim>::change([[maybe_unused]] Operator op, [[maybe_unused]] const 
                            [[maybe_unused]] int iteration) {
   if constexpr (Dim == 2) {
     if (!on_) return;
-    static_assert(static_cast<int>(EventKind::boundary_open) - static_cast<int>(EventKind::rotate) == kOperators - 1);
+    static_assert(static_cast<int>(EventKind::partial_chord_split) - static_cast<int>(EventKind::rotate) == kOperators - 1);
     const auto kind = static_cast<EventKind>(static_cast<int>(EventKind::rotate) + static_cast<int>(op));
     Event<2>& event = add(kind, mesh, iteration);
     MeshDelta<2>& delta = event.delta;

@@ -13,7 +13,7 @@ constexpr std::int64_t kMovesPerStep = 4000;
 constexpr int kNoRows = 1 << 20;
 
 /// Up to so many cells rows are cheap: the whole mesh is relocated for some.
-constexpr CellId kFewCells = 2000;
+constexpr CellId kFewCells = 2000, kAnyCells = std::numeric_limits<CellId>::max();
 
 /// Of a coarse mesh that will be diced, of one that was diced, and of one that layers have made, or that was given. Coarse
 /// meshes are not polished: the finer ones change shapes anyway.
@@ -32,27 +32,11 @@ Budget budget_of(Effort effort, bool diced, int halvings) {
     case Effort::best: break;
   }
   if (coarse) return {15, 0.6, 0.05, kNoRows, 20, 0, 5, 40, 100};
-  if (diced) return {250, 0.4, 0.15, kNoRows, 20, 6, 5, 20, 100};
+  if (diced) return {220, 0.4, 0.15, kNoRows, 2, 26, 5, 20, 100, kAnyCells, 20};
   return {60, 0.6, 0.05, kNoRows, 20, 6, 5, 40, 100};
 }
 
-/// Weight of alignment in the energy when the option asks for all of it, to begin with. In coarse meshes the directions of
-/// the metric turn more from cell to cell: there it draws less, and weighs more.
-constexpr double kAlignment = 0.4, kCoarseAlignment = 0.6;
-/// Afterwards it is kAlignment times this power of the misalignment that is left, over the one below: where the metric turns
-/// little, alignment is had for less, and where it turns much, it is not given up. With little time the sizes come first.
-constexpr double kAlignmentPower = 3.0;
-double common_misalignment(Effort effort) { return effort == Effort::best ? 0.1085 : 0.12; }
-constexpr double kLeastAlignment = 0.05, kMostAlignment = 0.75;
-constexpr int kPassesToBalance = 5;
-
-/// Weight of shapes below EnergyWeights::shape_floor in the polish.
-constexpr double kShape = 10.0;
-/// Weight of obtuse corners at the end: a thousandth of cv buys one or two of eta. Of that more is
-/// taken where nothing is aligned, since cv is low there, and with little time, since eta is.
-double obtuse_weight(const AdaptOptions& options) {
-  return (options.effort == Effort::best ? 0.08 : 0.17) + 0.18 * (1.0 - options.align);
-}
+constexpr int kPassesToBalance = 5, kIterationsToBalance = 12;
 
 Background background_of(const Mesh<2>& mesh, const MetricField<2>& field) {
   Point<2> low = mesh.points[0], high = low;
@@ -74,10 +58,10 @@ Schedule::Schedule(Mesh<2>& mesh, const MetricField<2>& field, const AdaptOption
       iteration_(iteration),
       budget_(budget_of(options.effort, diced, halvings)),
       background_(background_of(mesh, field)),
-      trial_(mesh, background_, {.alignment = (halvings > 0 ? kCoarseAlignment : kAlignment) * options.align}),
+      balance_(options, halvings > 0),
+      trial_(mesh, background_, balance_.first()),
       search_(mesh, trial_, options.seed),
       descent_(mesh, trial_.relocator) {
-  alignment_ = trial_.relocator.weights().alignment;
   if (options.record)
     trial_.kept = [this](Operator op, const Journal& journal) { recorder_.change(op, mesh_, journal, trial_.cavity, iteration_); };
 }
@@ -86,6 +70,13 @@ double Schedule::temperature(int pass) const {
   if (pass >= budget_.hot_passes) return 0.0;
   if (budget_.hot_passes == 1) return budget_.hot;
   return budget_.hot * portable::pow(budget_.cool / budget_.hot, static_cast<double>(pass) / (budget_.hot_passes - 1));
+}
+
+/// Weights of the end are about twice those before; of what is cooled further then, a mesh comes out as good as one that was
+/// cooled for a tenth longer before.
+double Schedule::polish_temperature(int round) const {
+  if (round >= budget_.warm_rounds) return 0.0;
+  return 2.0 * budget_.cool * portable::pow(1.0 / 3.0, static_cast<double>(round) / std::max(1, budget_.warm_rounds - 1));
 }
 
 void Schedule::begin_sweep() {
@@ -133,14 +124,10 @@ void Schedule::next_pass() {
   stage_ = Stage::pass;
 }
 
-/// A third of the way, in logarithms, to the weight that goes with the misalignment of now.
 void Schedule::balance_alignment() {
-  const double left = pass_ > 0 && options_.align > 0.0 ? trial_.relocator.misalignment() : 0.0;
-  if (left == 0.0) return;  // isotropic, or not asked for
-  const double drawn = kAlignment * portable::pow(left / common_misalignment(options_.effort), kAlignmentPower);
-  const double weight = options_.align * std::clamp(drawn, kLeastAlignment, kMostAlignment);
-  alignment_ *= portable::pow(weight / alignment_, 1.0 / 3.0);
-  trial_.relocator.set_alignment(alignment_);
+  const double left = pass_ > 0 ? trial_.relocator.misalignment() : 0.0;
+  const double weight = balance_.alignment_for(left);
+  if (weight > 0.0) trial_.relocator.set_alignment(weight);
 }
 
 void Schedule::end_pass() {
@@ -159,16 +146,37 @@ void Schedule::end_polish_round() {
     sweeps_ = 0;
     EnergyWeights exact = trial_.relocator.weights();
     exact.rough = 0.5;
-    if (budget_.polish_rounds > 0) exact.shape = kShape, exact.obtuse = obtuse_weight(options_);
     trial_.relocator.measure_all(exact);
     descent_.restart();
     return;
   }
   if (polish_++ == 0) {
-    trial_.relocator.measure_all({.alignment = alignment_, .shape = kShape, .obtuse = obtuse_weight(options_)});
+    std::int64_t cells = 0;
+    for (CellId c = 0; c < mesh_.cell_count(); ++c) cells += mesh_.alive(c) ? 1 : 0;
+    trial_.relocator.measure_all(balance_.last(trial_.relocator.total_energy() / static_cast<double>(cells)));
     trial_.touch_all();
+  } else {
+    adjust_balance();
   }
-  search_.begin_pass(0.0);
+  search_.begin_pass(polish_temperature(polish_ - 1));
+}
+
+void Schedule::adjust_balance() {
+  EnergyWeights weights = trial_.relocator.weights();
+  balance_.adjust(weights, trial_.relocator.indicators());
+  trial_.relocator.measure_all(weights);
+}
+
+/// An iteration of the end. \return false when there is nothing left to gain.
+bool Schedule::settle() {
+  const bool more = descend(budget_.settle_sweeps);
+  // Weights change while there is time to follow them.
+  if (budget_.polish_rounds == 0 || sweeps_ > budget_.settle_sweeps / 2 || (more && sweeps_ % kIterationsToBalance != 0))
+    return more;
+  sweeps_ += kIterationsToBalance - 1 - (sweeps_ - 1) % kIterationsToBalance;
+  adjust_balance();
+  descent_.restart();
+  return true;
 }
 
 bool Schedule::step() {
@@ -196,7 +204,7 @@ bool Schedule::step() {
       }
       break;
     case Stage::settle:
-      if (!descend(budget_.settle_sweeps)) stage_ = Stage::done;
+      if (!settle()) stage_ = Stage::done;
       break;
     case Stage::done: break;
   }
@@ -206,7 +214,8 @@ bool Schedule::step() {
 
 void Schedule::count() {
   constexpr const char* names[kOperators] = {"rotations",    "collapses",          "openings",         "chord_collapses",
-                                               "chord_splits", "boundary_collapses", "boundary_openings"};
+                                               "chord_splits", "boundary_collapses", "boundary_openings", "partial_chord_collapses",
+                                               "partial_chord_splits"};
   std::int64_t tried = 0;
   for (int i = 0; i < kOperators; ++i) {
     count(names[i], trial_.counts[i].kept);

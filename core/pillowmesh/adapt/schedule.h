@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "pillowmesh/adapt/balance.h"
 #include "pillowmesh/adapt/local_search.h"
 #include "pillowmesh/adapt/options.h"
 #include "pillowmesh/adapt/recorder.h"
@@ -21,6 +22,7 @@ struct Budget {
   int cold_passes, polish_rounds;
   int sweeps, relax_sweeps, settle_sweeps;  ///< of single vertices at the beginning; of all at once, then and at the end
   CellId rows_up_to = std::numeric_limits<CellId>::max();  ///< cells that the mesh may have for that
+  int warm_rounds = 0;  ///< of the polish: from `cool` to a third of it
 };
 
 /// Improves a quad mesh that layers have refined, step by step. The mesh is valid between steps; it may hold dead cells
@@ -49,7 +51,10 @@ class Schedule {
   void balance_alignment();
   void end_pass();
   void end_polish_round();
+  void adjust_balance();
+  bool settle();
   [[nodiscard]] double temperature(int pass) const;
+  [[nodiscard]] double polish_temperature(int round) const;
   void count();
   void count(const std::string& name, std::int64_t total);
 
@@ -59,8 +64,8 @@ class Schedule {
   std::map<std::string, std::int64_t>& operations_;
   int iteration_;
   Budget budget_;
-  double alignment_ = 0.0;  ///< weight in the energy
   Background background_;
+  Balance balance_;
   Trial trial_;
   LocalSearch search_;
   QuadDescent descent_;

@@ -18,6 +18,8 @@ std::string_view to_string(EventKind kind) {
     case EventKind::chord_split: return "chord_split";
     case EventKind::boundary_collapse: return "boundary_collapse";
     case EventKind::boundary_open: return "boundary_open";
+    case EventKind::partial_chord_collapse: return "partial_chord_collapse";
+    case EventKind::partial_chord_split: return "partial_chord_split";
   }
   return "";
 }

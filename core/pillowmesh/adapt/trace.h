@@ -24,6 +24,8 @@ enum class EventKind : std::uint8_t {
   chord_split,     ///< a whole row of quads doubled
   boundary_collapse,  ///< two boundary edges laid on each other, the rows that ended there joined
   boundary_open,      ///< the reverse: a boundary vertex split in three
+  partial_chord_collapse,  ///< part of a row of quads removed, inside the mesh
+  partial_chord_split,     ///< a path of edges opened into a row of quads
 };
 
 /// "tags", "layer", ...

@@ -24,7 +24,9 @@ Patience patience(Operator op) {
     case Operator::collapse: return {4, 1, 2, 0.3, 0.5};
     case Operator::open:
     case Operator::boundary_collapse:
-    case Operator::boundary_open: return {4, 1, 2, 0.5, 0.5};  // starts from a sliver
+    case Operator::boundary_open:
+    case Operator::partial_chord_collapse:
+    case Operator::partial_chord_split: return {4, 1, 2, 0.5, 0.5};  // starts from a sliver
     case Operator::chord_collapse:
     case Operator::chord_split: break;
   }

@@ -11,8 +11,18 @@
 
 namespace pillowmesh {
 
-enum class Operator : std::uint8_t { rotate, collapse, open, chord_collapse, chord_split, boundary_collapse, boundary_open };
-inline constexpr int kOperators = 7;
+enum class Operator : std::uint8_t {
+  rotate,
+  collapse,
+  open,
+  chord_collapse,
+  chord_split,
+  boundary_collapse,
+  boundary_open,
+  partial_chord_collapse,
+  partial_chord_split,
+};
+inline constexpr int kOperators = 9;
 
 class Trial {
  public:

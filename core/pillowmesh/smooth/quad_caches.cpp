@@ -47,6 +47,31 @@ double QuadRelocator::misalignment() const {
   return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
+QuadRelocator::Indicators QuadRelocator::indicators() const {
+  double sum = 0.0, squares = 0.0, lack = 0.0, cells = 0.0;
+  for (CellId c = 0; c < mesh_.cell_count(); ++c) {
+    if (!mesh_.alive(c)) continue;
+    std::array<double, 4> l;
+    std::array<VertexId, 4> v;
+    for (int i = 0; i < 4; ++i) {
+      l[i] = edges_[c][i].l, v[i] = around(mesh_, c, i);
+      sum += l[i], squares += l[i] * l[i];
+    }
+    double worst = 1.0;
+    for (int i = 0; i < 2; ++i) {
+      const VertexId a = v[i + 1], b = v[(i + 3) & 3];  // opposite to the corners i and i + 2
+      const double d = length(mesh_.points[a], size_[a], mesh_.points[b], size_[b]);
+      for (const int k : {i, i + 2})
+        worst = std::min(worst, squared_shape(l[k] * l[k], l[(k + 3) & 3] * l[(k + 3) & 3], d * d));
+    }
+    lack += 1.0 - std::sqrt(std::max(worst, 0.0));
+    cells += 1.0;
+  }
+  if (cells == 0.0) return {};
+  const double mean = 0.25 * sum / cells;
+  return {std::sqrt(std::max(0.0, 0.25 * squares / cells - mean * mean)) / mean, lack / cells, misalignment()};
+}
+
 void QuadRelocator::set_alignment(double alignment) {
   weights_.alignment = alignment;
   begin();

@@ -9,8 +9,8 @@ void add_shape(double a, const Point<2>* da, double b, const Point<2>* db, doubl
   const double L1 = a * a, L2 = b * b, D = diagonal * diagonal;
   const double eta2 = squared_shape(L1, L2, D), obtuse = 1.0 - eta2, lack = weights.shape_floor * weights.shape_floor - eta2;
   if (!(obtuse > 0)) return;
-  double weight = weights.obtuse, value = weight * obtuse * obtuse, slope = -2.0 * weight * obtuse;
-  if (lack > 0) weight += weights.shape, value += weights.shape * lack * lack, slope -= 2.0 * weights.shape * lack;
+  double weight = 0.0, value = weights.obtuse * obtuse, slope = -weights.obtuse;
+  if (lack > 0) weight = weights.shape, value += weights.shape * lack * lack, slope -= 2.0 * weights.shape * lack;
   const double g = 0.5 * (L1 + L2 - D), i = 1.0 / (L1 + L2 + D), det = L1 * L2 - g * g;
   const double common = 16.0 * i * i, spread = -2.0 * det * i;
   Point<2> d = Point<2>::Zero();

@@ -123,7 +123,8 @@ PILLOWMESH_LANES void add_corner(const R& cross, const R& cross_x, const R& cros
   const R i_d = 1.0 / d, i_d2 = i_d * i_d;
   const R u = T - 2.0 + align * (a.s + b.s);
   const R ud = u - T * i_d2, uT = 0.5 * (d + i_d);
-  sum.value = sum.value + 0.25 * (d * u + T * i_d);
+  const R off_a = a.l - 1.0, off_b = b.l - 1.0;
+  sum.value = sum.value + (0.25 * (d * u + T * i_d) + weights.length * (off_a * off_a + off_b * off_b));
 
   // gd: gradient of d with the metric frozen, for the Hessian; md: that with l and q changing (l^2 / q does not when frozen).
   R gdx = kappa * cross_x, gdy = kappa * cross_y;
@@ -131,18 +132,27 @@ PILLOWMESH_LANES void add_corner(const R& cross, const R& cross_x, const R& cros
   const R w1 = raw * (q2 * i_qq);
   R mdx = gdx + raw * da.lx + w1 * G1x, mdy = gdy + raw * da.ly + w1 * G1y;
   R gTx = 2.0 * L1 * da.lx, gTy = 2.0 * L1 * da.ly, gsx = da.sx, gsy = da.sy;
+  const double twice = 2.0 * weights.length;
+  const R m1 = twice * L1;  // of the square of the gradient of l = l times that of log l
+  const R n1 = twice * off_a * a.l;
+  R glx = n1 * da.lx, gly = n1 * da.ly;
   const R f1 = 2.0 * s2 * da.frozen, k1 = s3 * da.turn;
-  R h11 = f1 * a.g11 + k1 * e1y * e1y, h12 = f1 * a.g12 - k1 * e1x * e1y, h22 = f1 * a.g22 + k1 * e1x * e1x;
+  R h11 = f1 * a.g11 + k1 * e1y * e1y + m1 * da.lx * da.lx, h12 = f1 * a.g12 - k1 * e1x * e1y + m1 * da.lx * da.ly,
+    h22 = f1 * a.g22 + k1 * e1x * e1x + m1 * da.ly * da.ly;
   if constexpr (Moving == 2) {
     const R w2 = raw * (q1 * i_qq);
     mdx = mdx + raw * db.lx + w2 * G2x, mdy = mdy + raw * db.ly + w2 * G2y;
     gTx = gTx + 2.0 * L2 * db.lx, gTy = gTy + 2.0 * L2 * db.ly, gsx = gsx + db.sx, gsy = gsy + db.sy;
     const R f2 = 2.0 * s2 * db.frozen, k2 = s3 * db.turn;
-    h11 = h11 + f2 * b.g11 + k2 * e2y * e2y, h12 = h12 + f2 * b.g12 - k2 * e2x * e2y, h22 = h22 + f2 * b.g22 + k2 * e2x * e2x;
+    const R m2 = twice * L2, n2 = twice * off_b * b.l;
+    glx = glx + n2 * db.lx, gly = gly + n2 * db.ly;
+    h11 = h11 + (f2 * b.g11 + k2 * e2y * e2y + m2 * db.lx * db.lx);
+    h12 = h12 + (f2 * b.g12 - k2 * e2x * e2y + m2 * db.lx * db.ly);
+    h22 = h22 + (f2 * b.g22 + k2 * e2x * e2x + m2 * db.ly * db.ly);
   }
   gdx = chain * gdx, gdy = chain * gdy;
-  sum.x = sum.x + (s1 * mdx + s2 * gTx + s3 * gsx);
-  sum.y = sum.y + (s1 * mdy + s2 * gTy + s3 * gsy);
+  sum.x = sum.x + (s1 * mdx + s2 * gTx + s3 * gsx + glx);
+  sum.y = sum.y + (s1 * mdy + s2 * gTy + s3 * gsy + gly);
   const R c1 = 0.125 * (1.0 - i_d2), c2 = 0.5 * T * i_d2 * i_d;
   sum.xx = sum.xx + (2.0 * c1 * gdx * gTx + c2 * gdx * gdx + h11);
   sum.xy = sum.xy + (c1 * (gdx * gTy + gdy * gTx) + c2 * gdx * gdy + h12);

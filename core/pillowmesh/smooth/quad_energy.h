@@ -55,8 +55,10 @@ struct EnergyWeights {
   /// Weight of sum max(0, shape_floor^2 - eta^2)^2 over corners.
   double shape = 0.0;
   double shape_floor = 0.65;
-  /// Weight of sum max(0, 1 - eta^2)^2: what shapes cost besides, where `shape` is not 0.
+  /// Weight of sum max(0, 1 - eta^2): what shapes cost besides, where `shape` is not 0.
   double obtuse = 0.0;
+  /// Weight of (l1 - 1)^2 + (l2 - 1)^2 of each corner: what lengths cost besides.
+  double length = 0.0;
   /// Where sizes between the ends of an edge cannot be told from there: how much the derivatives may differ from the
   /// change, relative to the least size. 1: lengths are then off by about 1 % at the most.
   double rough = 2.0;
@@ -150,7 +152,8 @@ PILLOWMESH_LANES R corner_energy(const R& cross, const R& e1x, const R& e1y, con
   const R L1 = a.l * a.l, L2 = b.l * b.l, T = 0.5 * (L1 + L2);
   R d = cross * root((g11 * g22 - g12 * g12) * (L1 * L2) / (q1 * q2));
   if (weights.delta > 0.0) d = 0.5 * (d + root(d * d + 4.0 * weights.delta * weights.delta));
-  return 0.25 * (d * (T - 2.0 + (0.5 * weights.alignment) * (a.s + b.s)) + T / d);
+  const R off_a = a.l - 1.0, off_b = b.l - 1.0;
+  return 0.25 * (d * (T - 2.0 + (0.5 * weights.alignment) * (a.s + b.s)) + T / d) + weights.length * (off_a * off_a + off_b * off_b);
 }
 /// The same, infinite for a corner that is degenerate or inside out when delta is 0.
 inline double corner_energy(const Point<2>& e1, const EdgeTerm& a, const Point<2>& e2, const EdgeTerm& b,
@@ -172,7 +175,7 @@ inline double shape_energy(double a, double b, double diagonal, const EnergyWeig
   const double eta2 = squared_shape(a * a, b * b, diagonal * diagonal);
   const double obtuse = 1.0 - eta2, lack = weights.shape_floor * weights.shape_floor - eta2;
   if (!(obtuse > 0)) return 0.0;
-  return weights.obtuse * obtuse * obtuse + (lack > 0 ? weights.shape * lack * lack : 0.0);
+  return weights.obtuse * obtuse + (lack > 0 ? weights.shape * lack * lack : 0.0);
 }
 
 }  // namespace pillowmesh

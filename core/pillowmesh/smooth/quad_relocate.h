@@ -40,6 +40,13 @@ class QuadRelocator {
   /// Mean of sin^2(2 phi) over the sides of cells where the metric is stretched 2 : 1 or more, phi as in the report; 0 where
   /// there are none.
   [[nodiscard]] double misalignment() const;
+  /// What the report would say, from what is cached.
+  struct Indicators {
+    double spread = 0.0;        ///< cv of the metric lengths of the sides of cells
+    double lack = 0.0;          ///< mean of 1 - eta
+    double misalignment = 0.0;  ///< as above
+  };
+  [[nodiscard]] Indicators indicators() const;
   /// Cost: energies are added up again, lengths are not measured.
   void set_alignment(double alignment);
   /// Measures sizes at a vertex that is new or was put elsewhere.
