@@ -9,6 +9,8 @@ const operators = [
   'chord_split',
   'boundary_collapse',
   'boundary_open',
+  'partial_chord_collapse',
+  'partial_chord_split',
 ] as const;
 /** In the order of EventKind in core/pillowmesh/adapt/trace.h. */
 export const eventKinds = [

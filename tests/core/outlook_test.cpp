@@ -5,8 +5,10 @@
 #include "../catch.h"
 #include "meshes.h"
 #include "pillowmesh/coarsen/diagonal_collapse.h"
+#include "pillowmesh/coarsen/partial_chord_collapse.h"
 #include "pillowmesh/mesh/validate.h"
 #include "pillowmesh/reconnect/open.h"
+#include "pillowmesh/reconnect/partial_chord_split.h"
 #include "pillowmesh/reconnect/rotate.h"
 
 namespace outlook_test {
@@ -35,14 +37,14 @@ TEST_CASE("changes with poor odds are hardly ever kept, and most changes have po
   Trial trial(mesh, metric, {.alignment = 0.3});
   Outlook outlook(mesh, trial);
   std::mt19937 random(3);
-  Tally rotations, collapses, openings;
-  for (int i = 0; i < 40'000; ++i) {
+  Tally rotations, collapses, openings, parts;
+  for (int i = 0; i < 50'000; ++i) {
     const CellId c = static_cast<CellId>(random() % mesh.cells.size());
     if (!mesh.alive(c)) continue;
     const int side = static_cast<int>(random() % 4), way = static_cast<int>(random() % 2);
     const double allowed = 0.3 * (random() / 4294967296.0);
     if (i % 1000 == 0) outlook.forget();
-    const int kind = i % 3;
+    const int kind = i % 4;
     if (kind == 0) {
       const HalfFacetId twin = twin_of_side(mesh, c, side);
       if (twin < 0) continue;
@@ -59,6 +61,18 @@ TEST_CASE("changes with poor odds are hardly ever kept, and most changes have po
       const int excess = after * after + outlook.excess(around(mesh, c, side + 1), -1) + outlook.excess(around(mesh, c, side + 3), -1);
       const double odds = outlook.collapse(c, side, excess, allowed);
       if (plan_diagonal_collapse(mesh, c, side, trial.cavity)) collapses.add(odds, trial.attempt(Operator::collapse, allowed));
+    } else if (kind == 2) {
+      const HalfFacetId ahead = twin_of_side(mesh, c, side + 2);
+      if (ahead < 0) continue;
+      const CellId n = mesh.cell_of(ahead);
+      const int j = kFacetSide[mesh.facet_of(ahead)];
+      const auto& r = trial.relocator;
+      const int excess = 2 + outlook.excess(around(mesh, c, side + way), -1) + outlook.excess(around(mesh, n, j + 2 + way), -1);
+      const double rung = r.edge(n, j).l;
+      const double sides = 0.25 * (r.edge(c, side + 1).l + r.edge(c, side + 3).l + r.edge(n, j + 1).l + r.edge(n, j + 3).l);
+      const double odds = Outlook::partial_collapse(2, excess, allowed, rung, sides);
+      if (plan_partial_chord_collapse(mesh, {{c, side}, {n, j}}, way, trial.cavity))
+        parts.add(odds, trial.attempt(Operator::partial_chord_collapse, allowed));
     } else {
       const VertexId v = around(mesh, c, side);
       OrderedStar star;
@@ -70,7 +84,7 @@ TEST_CASE("changes with poor odds are hardly ever kept, and most changes have po
     }
   }
   REQUIRE(validate(mesh).ok());
-  for (const Tally& tally : {rotations, collapses, openings}) {
+  for (const Tally& tally : {rotations, collapses, openings, parts}) {
     INFO(tally.tried[0] << " tried and " << tally.kept[0] << " kept; of those with poor odds " << tally.tried[1] << " and "
                         << tally.kept[1]);
     CHECK(tally.tried[1] > 2 * tally.tried[0]);
@@ -91,6 +105,28 @@ TEST_CASE("the outlook counts the cells at a vertex anew where a change was kept
   int irregular = 0;
   for (const VertexId v : around_it) irregular += outlook.valence(v) != 4;
   CHECK(irregular == 4);
+}
+
+TEST_CASE("part of a row is put in where cells are wide, taken out where they are narrow, and left alone between") {
+  // Cells twelve to the unit; what their height is in the metric.
+  for (const double height : {1.5, 1.0, 0.5}) {
+    INFO("height " << height);
+    auto mesh = make_grid<2>({12, 12}, Point<2>(0, 0), Point<2>(1, 1));
+    Background metric(*MetricField<2>::from_formula("h1 = 1/12; h2 = 1/12/" + std::to_string(height)), Point<2>(0, 0),
+                      Point<2>(1, 1));
+    Trial trial(mesh, metric, {});
+    const int row = 6 * 12;
+    const VertexId first = 6 * 13 + 4;
+    const std::vector<VertexId> path{first, first + 1, first + 2, first + 3};
+    REQUIRE(plan_partial_chord_split(mesh, path, 0, trial.cavity));
+    CHECK(trial.attempt(Operator::partial_chord_split, 0.0) == (height > 1.2));
+    CHECK((Outlook::partial_split(3, 2, 0.0, height, 1.0) > -2.2) == (height > 1.2));
+    if (height > 1.2) continue;
+    REQUIRE(plan_partial_chord_collapse(mesh, {{row + 4, 3}, {row + 5, 3}, {row + 6, 3}}, 1, trial.cavity));
+    CHECK(trial.attempt(Operator::partial_chord_collapse, 0.0) == (height < 0.8));
+    CHECK((Outlook::partial_collapse(3, 2, 0.0, height, 1.0) > -2.2) == (height < 0.8));
+    CHECK(validate(mesh).ok() == true);
+  }
 }
 
 }  // namespace outlook_test

@@ -67,11 +67,32 @@ TEST_CASE("cells twice too long cost what the formula of the energy says") {
   CHECK(relocator.total_energy() == Approx(9 * 2.25));
 }
 
+TEST_CASE("lengths cost what they are off by, at each corner, times their weight") {
+  auto mesh = make_grid<2>({3, 3}, Point<2>(0, 0), Point<2>(6, 3));
+  auto metric = background(mesh, "h = 1");
+  QuadRelocator relocator(mesh, metric, {.length = 0.5});
+  CHECK(relocator.energy(4) == Approx(2.25 + 4 * 0.5 * (1.0 + 0.0)));
+}
+
+TEST_CASE("spread of lengths, lack of shape and misalignment are those of the report") {
+  auto mesh = make_grid<2>({40, 40}, Point<2>(0, 0), Point<2>(1, 1));
+  shake(mesh, 0.3, 8);
+  const char* text = "h1 = 0.1; h2 = 0.04 + 0.2*x; theta = 0.4 + x";
+  auto metric = background(mesh, text);
+  const QuadRelocator relocator(mesh, metric, {});
+  const auto left = relocator.indicators();
+  const Report report = measure(mesh, *MetricField<2>::from_formula(text));
+  CHECK(left.spread == Approx(report.edge_length.cv).epsilon(0.05));  // edges inside count twice here
+  CHECK(1.0 - left.lack == Approx(report.shape.mean).epsilon(0.01));
+  CHECK(left.misalignment == Approx(report.misalignment).epsilon(0.05));
+}
+
 TEST_CASE("the gradient of the energy agrees with finite differences") {
   auto mesh = make_grid<2>({6, 6}, Point<2>(0, 0), Point<2>(1, 1));
   shake(mesh, 0.4, 5);
   for (const EnergyWeights& weights : {EnergyWeights{}, EnergyWeights{.alignment = 0.5},
-                                       EnergyWeights{.alignment = 0.5, .shape = 10.0, .shape_floor = 0.9, .obtuse = 0.5}}) {
+                                       EnergyWeights{.alignment = 0.5, .shape = 10.0, .shape_floor = 0.9, .obtuse = 0.5},
+                                       EnergyWeights{.alignment = 0.5, .length = 3.0}}) {
     auto metric = background(mesh, "h1 = 0.1; h2 = 0.2; theta = 0.4");  // the angle between edges uses one metric
     QuadRelocator relocator(mesh, metric, weights);
     for (VertexId v = 0; v < mesh.vertex_count(); ++v) {

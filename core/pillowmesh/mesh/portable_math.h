@@ -12,13 +12,11 @@ double pm_atan(double);
 double pm_atan2(double, double);
 double pm_asin(double);
 double pm_acos(double);
-double pm_tanh(double);
-double pm_expm1(double);
 double pm_floor(double);
 }
 
 /// Use these instead of <cmath> wherever a result can reach a mesh. + - * / and sqrt need no such care: IEEE 754 fixes
-/// their bits. Source: core/third_party/musl_math. Accuracy: within 1 ulp (tanh 2 ulp).
+/// their bits. Source: core/third_party/musl_math. Accuracy: within 1 ulp.
 namespace pillowmesh::portable {
 
 inline double exp(double x) { return pm_exp(x); }
@@ -31,8 +29,6 @@ inline double atan(double x) { return pm_atan(x); }
 inline double atan2(double y, double x) { return pm_atan2(y, x); }
 inline double asin(double x) { return pm_asin(x); }
 inline double acos(double x) { return pm_acos(x); }
-inline double tanh(double x) { return pm_tanh(x); }
-inline double expm1(double x) { return pm_expm1(x); }
 inline double floor(double x) { return pm_floor(x); }
 
 }  // namespace pillowmesh::portable

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "pillowmesh/metric/branchless.h"
 #include "pillowmesh/metric/operations.h"
 
 namespace pillowmesh {
@@ -71,7 +72,7 @@ double apply(Op op, double a, double b, double c) {
     case Op::exponential:
       return portable::exp(a);
     case Op::logarithm:
-      return portable::log(a);
+      return branchless::log(a);
     case Op::sine:
       return portable::sin(a);
     case Op::cosine:
@@ -87,7 +88,7 @@ double apply(Op op, double a, double b, double c) {
     case Op::arc_tangent_2:
       return portable::atan2(a, b);
     case Op::hyperbolic_tangent:
-      return portable::tanh(a);
+      return branchless::tanh(a);
     case Op::absolute:
       return std::fabs(a);
     case Op::minimum:

@@ -1,5 +1,7 @@
 #include <cmath>
 
+#include "pillowmesh/mesh/wide.h"
+#include "pillowmesh/metric/branchless.h"
 #include "pillowmesh/metric/operations.h"
 #include "pillowmesh/metric/program.h"
 
@@ -10,14 +12,14 @@ namespace {
 constexpr int kGroup = 8;
 
 template <class F>
-inline void map(double* __restrict out, const double* a, int n, F f) {
+PILLOWMESH_LANES void map(double* __restrict out, const double* a, int n, F f) {
   for (int i = 0; i < n; i += kGroup) {
     for (int k = 0; k < kGroup; ++k) out[i + k] = f(a[i + k]);
   }
 }
 
 template <class F>
-inline void map(double* __restrict out, const double* a, const double* b, int n, F f) {
+PILLOWMESH_LANES void map(double* __restrict out, const double* a, const double* b, int n, F f) {
   for (int i = 0; i < n; i += kGroup) {
     for (int k = 0; k < kGroup; ++k) out[i + k] = f(a[i + k], b[i + k]);
   }
@@ -32,6 +34,19 @@ int count_true(const double* a, int n) {
 }  // namespace
 
 void Program::run(const Lanes* coordinates, int count, std::span<Lanes> results) const {
+#if defined(PILLOWMESH_WIDE)
+  if (kWide) return run_wide(coordinates, count, results);
+#endif
+  run_code(coordinates, count, results);
+}
+
+#if defined(PILLOWMESH_WIDE)
+PILLOWMESH_WIDE void Program::run_wide(const Lanes* coordinates, int count, std::span<Lanes> results) const {
+  run_code(coordinates, count, results);
+}
+#endif
+
+PILLOWMESH_LANES void Program::run_code(const Lanes* coordinates, int count, std::span<Lanes> results) const {
   alignas(16) double registers[kMaxRegisters * kLanes];
   const int n = (count + kGroup - 1) / kGroup * kGroup;
   for (int axis = 0; axis < axes_; ++axis) {
@@ -77,7 +92,7 @@ void Program::run(const Lanes* coordinates, int count, std::span<Lanes> results)
         map(out, a, n, portable::exp);
         break;
       case Op::logarithm:
-        map(out, a, n, portable::log);
+        map(out, a, n, branchless::log);
         break;
       case Op::sine:
         map(out, a, n, portable::sin);
@@ -101,7 +116,7 @@ void Program::run(const Lanes* coordinates, int count, std::span<Lanes> results)
         map(out, a, b, n, portable::atan2);
         break;
       case Op::hyperbolic_tangent:
-        map(out, a, n, portable::tanh);
+        map(out, a, n, branchless::tanh);
         break;
       case Op::absolute:
         map(out, a, n, [](double u) { return std::fabs(u); });

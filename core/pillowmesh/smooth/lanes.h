@@ -5,25 +5,12 @@
 #include <cmath>
 #include <cstring>
 
+#include "pillowmesh/mesh/wide.h"
+
 #if defined(__SSE2__)
 #include <emmintrin.h>
 #elif defined(__wasm_simd128__)
 #include <wasm_simd128.h>
-#endif
-
-/// Functions of lanes are compiled for the registers of whoever calls them.
-#if defined(__GNUC__) || defined(__clang__)
-#define PILLOWMESH_LANES inline __attribute__((always_inline))
-#define PILLOWMESH_LANES_LAMBDA __attribute__((always_inline))
-#else
-#define PILLOWMESH_LANES inline
-#define PILLOWMESH_LANES_LAMBDA
-#endif
-
-/// Where a second version of a function, for registers of 256 bits, can be chosen as the program runs. Without fused
-/// multiplication and addition, which would round differently.
-#if defined(__x86_64__) && defined(__GNUC__)
-#define PILLOWMESH_WIDE __attribute__((target("avx2")))
 #endif
 
 namespace pillowmesh {
@@ -117,10 +104,5 @@ PILLOWMESH_LANES Four root(const Four& a) {
 PILLOWMESH_LANES Four larger(const Four& a, const Four& b) {
   return Four{larger(a[0], b[0]), larger(a[1], b[1]), larger(a[2], b[2]), larger(a[3], b[3])};
 }
-
-#if defined(PILLOWMESH_WIDE)
-/// The machine that the program runs on has registers of 256 bits.
-inline const bool kWide = __builtin_cpu_supports("avx2") != 0;
-#endif
 
 }  // namespace pillowmesh

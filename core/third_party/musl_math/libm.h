@@ -34,8 +34,6 @@
 #define atan2 pm_atan2
 #define asin pm_asin
 #define acos pm_acos
-#define tanh pm_tanh
-#define expm1 pm_expm1
 #define floor pm_floor
 #define scalbn pm_scalbn
 #define __sin pm__sin

@@ -55,6 +55,8 @@ const kindLabels: Record<EventKind, string> = {
   chord_split: 'Row in',
   boundary_collapse: 'Rows joined',
   boundary_open: 'Rows let out',
+  partial_chord_collapse: 'Part of a row out',
+  partial_chord_split: 'Part of a row in',
 };
 
 export function makeTransport(actions: TransportActions): Transport {

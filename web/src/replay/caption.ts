@@ -72,6 +72,10 @@ export function captionOf(
       return `Two boundary edges are laid on each other, and the rows that ended there become one; ${now()} are left.`;
     case 'boundary_open':
       return `A boundary vertex is split in three, and a row that turned inside ends there twice; that gives ${now()}.`;
+    case 'partial_chord_collapse':
+      return `Part of a row is removed by merging opposite vertices of its quads; ${now()} are left.`;
+    case 'partial_chord_split':
+      return `A path of edges opens into part of a row, which ends inside the mesh; that gives ${now()}.`;
     case 'iteration':
       return `Iteration ${iteration} ends with ${now()}${longest(value)}.`;
   }

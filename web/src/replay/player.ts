@@ -15,6 +15,8 @@ const dwell: Partial<Record<EventKind, number>> = {
   iteration: 900,
   chord_collapse: 1100,
   chord_split: 1100,
+  partial_chord_collapse: 700,
+  partial_chord_split: 700,
 };
 const longestAnimation = 520;
 /** Events that `auto` shows at pace 1 before it speeds up, by what factor each, and to what pace. */

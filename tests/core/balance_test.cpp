@@ -1,0 +1,65 @@
+#include "pillowmesh/adapt/balance.h"
+
+#include "../catch.h"
+
+namespace balance_test {
+
+using namespace pillowmesh;
+
+TEST_CASE("alignment weighs more where more misalignment is left, and nothing where there is nothing to align") {
+  AdaptOptions options;
+  options.effort = Effort::best;
+  const auto settled = [&](double align, double left) {
+    options.align = align;
+    Balance balance(options, false);
+    double weight = 0.0;
+    for (int i = 0; i < 40; ++i) weight = balance.alignment_for(left);
+    return weight;
+  };
+  CHECK(settled(1.0, 0.08) < 0.6 * settled(1.0, 0.1));
+  CHECK(settled(0.5, 0.1) == Approx(0.5 * settled(1.0, 0.1)).epsilon(1e-3));
+  CHECK(settled(1.0, 1e-6) > 0.0);   // the directions of a finer mesh are worth something still
+  CHECK(settled(1.0, 0.9) <= 1.0);
+  CHECK(settled(1.0, 0.0) == 0.0);  // isotropic
+  CHECK(settled(0.0, 0.3) == 0.0);
+}
+
+TEST_CASE("weights of the end come to rest where lengths, shapes and misalignment are as even as they should be") {
+  AdaptOptions options;
+  options.effort = Effort::best;
+  options.align = 1.0;
+  Balance balance(options, false);
+  balance.alignment_for(0.1);
+  const EnergyWeights first = balance.last(0.1);
+  CHECK(first.length > balance.first().length);
+  // Misalignment 0.068 + 0.42 * 0.1, a cv of 0.08 and as much lack of shape.
+  const QuadRelocator::Indicators even{0.08, 0.08, 0.11};
+  EnergyWeights weights = first;
+  balance.adjust(weights, even);
+  CHECK(weights.obtuse == Approx(first.obtuse));
+  CHECK(weights.alignment == Approx(first.alignment));
+  balance.adjust(weights, {0.08, 0.09, 0.11});
+  CHECK(weights.obtuse > 1.2 * first.obtuse);
+  CHECK(weights.alignment == Approx(first.alignment));
+  weights = first;
+  balance.adjust(weights, {0.09, 0.08, 0.1});
+  CHECK(weights.obtuse < 0.8 * first.obtuse);
+  CHECK(weights.alignment < 0.8 * first.alignment);
+  // A mesh that has come out exactly is left alone.
+  weights = first;
+  balance.adjust(weights, {0.0, 0.0, 0.11});
+  CHECK(weights.obtuse == first.obtuse);
+}
+
+TEST_CASE("a weight of alignment that was asked for is kept at the end") {
+  AdaptOptions options;
+  options.align = 0.3;
+  Balance balance(options, false);
+  balance.alignment_for(0.2);
+  EnergyWeights weights = balance.last(0.1);
+  const double before = weights.alignment;
+  balance.adjust(weights, {0.08, 0.08, 0.4});
+  CHECK(weights.alignment == before);
+}
+
+}  // namespace balance_test
