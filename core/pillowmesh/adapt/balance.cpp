@@ -19,13 +19,13 @@ constexpr double kLeastAlignment = 0.05, kMostAlignment = 1.0;
 
 /// Weights of the end; that of alignment is in proportion to the one before, that of obtuse corners to the energy of a cell
 /// to the power 3/2. These are guesses that `adjust` makes good.
-constexpr double kLastLength = 0.4, kLastShape = 20.0, kLastAlignment = 1.6;
-double last_obtuse(Effort effort) { return effort == Effort::best ? 6.0 : 12.0; }
+constexpr double kLastLength = 0.4, kLastShape = 30.0, kLastAlignment = 1.6;
+double last_obtuse(Effort effort) { return effort == Effort::best ? 6.0 : 17.0; }
 /// Of misalignment there may be left: this, and so much more for each unit of energy.
 constexpr double kLeftAlways = 0.068, kLeftByEnergy = 0.42;
 /// Of shapes 1 - eta may be left in the mean: as much as the cv of lengths where that is kEven, and a little more than in
 /// proportion.
-constexpr double kEven = 0.08, kEvenPower = 1.3;
+constexpr double kEven = 0.078, kEvenPower = 1.3;
 /// A part in a hundred of one takes so many parts in a hundred of its weight.
 constexpr double kResponse = 4.0, kMostAtOnce = 1.6;
 

@@ -27,7 +27,7 @@ Budget budget_of(Effort effort, bool diced, int halvings) {
       return {6, 0.3, 0.1, 3, 2, 0, 5, 4, 2, kFewCells};
     case Effort::normal:
       if (coarse) return {4, 0.4, 0.1, kNoRows, 4, 0, 5, 10, 20};
-      if (diced) return {36, 0.3, 0.15, kNoRows, 1, 2, 5, 0, 8};
+      if (diced) return {31, 0.3, 0.15, kNoRows, 1, 2, 5, 0, 8};
       return {30, 0.5, 0.06, 8, 4, 2, 5, 20, 20};
     case Effort::best: break;
   }
@@ -72,8 +72,8 @@ double Schedule::temperature(int pass) const {
   return budget_.hot * portable::pow(budget_.cool / budget_.hot, static_cast<double>(pass) / (budget_.hot_passes - 1));
 }
 
-/// Weights of the end are about twice those before; of what is cooled further then, a mesh comes out as good as one that was
-/// cooled for a tenth longer before.
+/// Weights of the end are about twice those before, and dear for poor shapes: only a few changes a round pass at this
+/// temperature. They are worth a twelfth of the hot passes.
 double Schedule::polish_temperature(int round) const {
   if (round >= budget_.warm_rounds) return 0.0;
   return 2.0 * budget_.cool * portable::pow(1.0 / 3.0, static_cast<double>(round) / std::max(1, budget_.warm_rounds - 1));

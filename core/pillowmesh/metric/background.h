@@ -39,7 +39,7 @@ struct BackgroundOptions {
 /// change of the sizes across a unit length. Results depend on the position alone, not on what was asked before.
 class Background {
  public:
-  /// Points outside the box are moved to its nearest point. `scale`: sizes are multiplied by it.
+  /// Points outside the box are moved to its nearest point.
   Background(MetricField<2> field, const Point<2>& low, const Point<2>& high, const BackgroundOptions& options = {});
 
   /// Cost: about 20 ns; where nobody asked before, 41 evaluations of the metric for each level that is new.

@@ -48,14 +48,15 @@ double QuadRelocator::misalignment() const {
 }
 
 QuadRelocator::Indicators QuadRelocator::indicators() const {
-  double sum = 0.0, squares = 0.0, lack = 0.0, cells = 0.0;
+  double sum = 0.0, squares = 0.0, sides = 0.0, lack = 0.0, cells = 0.0;
   for (CellId c = 0; c < mesh_.cell_count(); ++c) {
     if (!mesh_.alive(c)) continue;
     std::array<double, 4> l;
     std::array<VertexId, 4> v;
     for (int i = 0; i < 4; ++i) {
       l[i] = edges_[c][i].l, v[i] = around(mesh_, c, i);
-      sum += l[i], squares += l[i] * l[i];
+      const double share = twin_of_side(mesh_, c, i) < 0 ? 1.0 : 0.5;  // other edges come twice
+      sum += share * l[i], squares += share * l[i] * l[i], sides += share;
     }
     double worst = 1.0;
     for (int i = 0; i < 2; ++i) {
@@ -68,8 +69,8 @@ QuadRelocator::Indicators QuadRelocator::indicators() const {
     cells += 1.0;
   }
   if (cells == 0.0) return {};
-  const double mean = 0.25 * sum / cells;
-  return {std::sqrt(std::max(0.0, 0.25 * squares / cells - mean * mean)) / mean, lack / cells, misalignment()};
+  const double mean = sum / sides;
+  return {std::sqrt(std::max(0.0, squares / sides - mean * mean)) / mean, lack / cells, misalignment()};
 }
 
 void QuadRelocator::set_alignment(double alignment) {

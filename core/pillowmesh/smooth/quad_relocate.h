@@ -42,7 +42,7 @@ class QuadRelocator {
   [[nodiscard]] double misalignment() const;
   /// What the report would say, from what is cached.
   struct Indicators {
-    double spread = 0.0;        ///< cv of the metric lengths of the sides of cells
+    double spread = 0.0;        ///< cv of the metric lengths of edges
     double lack = 0.0;          ///< mean of 1 - eta
     double misalignment = 0.0;  ///< as above
   };
