@@ -20,7 +20,7 @@ class Balance {
 
   /// At the end it is lengths and shapes that count. `energy`: of a cell, which tells how much the metric turns.
   [[nodiscard]] EnergyWeights last(double energy);
-  /// The weights of the end for a mesh that had these with the weights of before.
+  /// Corrects weights of the end by what a mesh has left that they have shaped.
   void adjust(EnergyWeights& last, const QuadRelocator::Indicators& left) const;
 
  private:

@@ -72,8 +72,8 @@ double Schedule::temperature(int pass) const {
   return budget_.hot * portable::pow(budget_.cool / budget_.hot, static_cast<double>(pass) / (budget_.hot_passes - 1));
 }
 
-/// Weights of the end are about twice those before, and dear for poor shapes: only a few changes a round pass at this
-/// temperature. They are worth a twelfth of the hot passes.
+/// Energies of the end are about twice those before, and poor shapes cost much: only one to ten changes a round pass at this
+/// temperature. circle2d with sizes halved, cv + (1 - eta) / 1.5: .1319 to .1327 with them, .1327 without; the scatter is .0006.
 double Schedule::polish_temperature(int round) const {
   if (round >= budget_.warm_rounds) return 0.0;
   return 2.0 * budget_.cool * portable::pow(1.0 / 3.0, static_cast<double>(round) / std::max(1, budget_.warm_rounds - 1));

@@ -1,5 +1,8 @@
 // Logarithm and hyperbolic tangent without branches and tables: loops over many numbers are vectorised, where musl's
 // functions go one by one. Only + - * / and moves of bits, so that a result is the same in every build.
+//
+// After FreeBSD's msun: Copyright (C) 1993 by Sun Microsystems, Inc. All rights reserved. Permission to use, copy, modify,
+// and distribute this software is freely granted, provided that this notice is preserved.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +19,7 @@ namespace pillowmesh::branchless {
 
 // std::bit_cast is missing from the library that WebAssembly is built with.
 
-/// Within 1 ulp. [W. Cody, W. Waite, Software Manual for the Elementary Functions, 1980; coefficients of the
-/// remainder: FreeBSD's msun, e_log.c]
+/// Within 1 ulp. [FreeBSD's msun, e_log.c]
 PILLOWMESH_VECTORISED double log(double x) {
   constexpr double ln2_high = 6.93147180369123816490e-01, ln2_low = 1.90821492927058770002e-10;
   constexpr std::uint64_t one = 0x3ff0000000000000, root_half = 0x3fe6a09e667f3bcd, mantissa = 0x000fffffffffffff;
