@@ -67,16 +67,7 @@ void map_grid(const CornerPoints<3>& p, int n, const double (*t)[3], Visit&& vis
   }
 }
 
-// Duffy's maps onto a simplex: p0 + u ((1 - v) e1 + v ((1 - w) e2 + w e3)), whose determinant is u^2 v that of the edges.
-template <class Visit>
-void map_grid(const SimplexPoints<2>& p, int n, const double (*t)[3], Visit&& visit) {
-  const Point<2> e1 = p[1] - p[0], e2 = p[2] - p[0];
-  const double volume = e1[0] * e2[1] - e1[1] * e2[0];
-  for (int j = 0; j < n; ++j) {
-    const Point<2> q = between<2>(e1, e2, t[1][j]);
-    for (int i = 0; i < n; ++i) visit(Point<2>(p[0] + t[0][i] * q), t[0][i] * volume);
-  }
-}
+// Duffy's map onto a simplex: p0 + u ((1 - v) e1 + v ((1 - w) e2 + w e3)), whose determinant is u^2 v that of the edges.
 template <class Visit>
 void map_grid(const SimplexPoints<3>& p, int n, const double (*t)[3], Visit&& visit) {
   const Point<3> e1 = p[1] - p[0], e2 = p[2] - p[0], e3 = p[3] - p[0];
@@ -270,10 +261,9 @@ void metric_volumes(const MetricField<Dim>& field, std::span<const CornerPoints<
   integrate_chunks<Dim>(field, cells, volumes, options);
 }
 
-template <int Dim>
-void simplex_volumes(const MetricField<Dim>& field, std::span<const SimplexPoints<Dim>> simplices,
-                     std::span<double> volumes, const VolumeOptions& options) {
-  integrate_chunks<Dim>(field, simplices, volumes, options);
+void simplex_volumes(const MetricField<3>& field, std::span<const SimplexPoints<3>> simplices, std::span<double> volumes,
+                     const VolumeOptions& options) {
+  integrate_chunks<3>(field, simplices, volumes, options);
 }
 
 template <int Dim>
@@ -300,8 +290,6 @@ double complexity(const Mesh<Dim>& mesh, const MetricField<Dim>& field, const Vo
   template CornerPoints<D> collapsed_simplex<D>(const SimplexPoints<D>&);                                     \
   template void metric_volumes<D>(const MetricField<D>&, std::span<const CornerPoints<D>>, std::span<double>, \
                                   const VolumeOptions&);                                                      \
-  template void simplex_volumes<D>(const MetricField<D>&, std::span<const SimplexPoints<D>>,                  \
-                                   std::span<double>, const VolumeOptions&);                                  \
   template double complexity<D>(const Mesh<D>&, const MetricField<D>&, const VolumeOptions&);
 PILLOWMESH_INSTANTIATE(2)
 PILLOWMESH_INSTANTIATE(3)

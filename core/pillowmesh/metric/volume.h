@@ -40,10 +40,10 @@ template <int Dim>
 void metric_volumes(const MetricField<Dim>& field, std::span<const CornerPoints<Dim>> cells, std::span<double> volumes,
                     const VolumeOptions& options = {});
 
-/// The same of simplices, to rounding what metric_volumes makes of them collapsed, in a fraction of the time.
-template <int Dim>
-void simplex_volumes(const MetricField<Dim>& field, std::span<const SimplexPoints<Dim>> simplices,
-                     std::span<double> volumes, const VolumeOptions& options = {});
+/// The same of tetrahedra, to rounding what metric_volumes makes of them collapsed, in a fraction of the time. In 2D see
+/// quad_area.h.
+void simplex_volumes(const MetricField<3>& field, std::span<const SimplexPoints<3>> simplices, std::span<double> volumes,
+                     const VolumeOptions& options = {});
 
 /// Metric volume of the mesh: the number of cells of an ideal one.
 template <int Dim>

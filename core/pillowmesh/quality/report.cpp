@@ -42,12 +42,16 @@ std::vector<std::array<VertexId, 2>> sorted_edges(const Mesh<Dim>& mesh) {
 
 /// Of the anisotropic edges: for an edge of direction e, sin^2(2 phi) = 4 c (1 - c) with c the share of one eigenvector
 /// in e, and with r = det |e|^2 / (e' M e) that is 4 (r (t - r) - det) / (t^2 - 4 det), t = tr M.
-double mean_misalignment(const Mesh<2>& mesh, const MetricField<2>& field) {
+double mean_misalignment(const Mesh<2>& mesh, const MetricField<2>& field, std::span<const std::array<VertexId, 2>> edges) {
   double sum = 0.0;
   std::int64_t count = 0;
-  for (const auto& [a, b] : unique_edges(mesh)) {
-    const Point<2> e = mesh.points[b] - mesh.points[a];
-    const SymTensor<2> M = field.evaluate(Point<2>(0.5 * (mesh.points[a] + mesh.points[b])));
+  std::vector<Point<2>> middles(edges.size());
+  std::vector<SymTensor<2>> tensors(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) middles[i] = 0.5 * (mesh.points[edges[i][0]] + mesh.points[edges[i][1]]);
+  field.evaluate(middles, tensors);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const Point<2> e = mesh.points[edges[i][1]] - mesh.points[edges[i][0]];
+    const SymTensor<2>& M = tensors[i];
     const double t = M.m[0] + M.m[2], det = determinant(M);
     // The eigenvalues' ratio is above 2^2 where t^2 / det is above (4 + 1)^2 / 4.
     if (!(t * t > 6.25 * det)) continue;
@@ -69,7 +73,7 @@ void measure_cells(const Mesh<Dim>& mesh, const MetricField<Dim>& field, const L
   std::vector<double> values(cells.size());
   {
     std::vector<double> integral(cells.size());
-    cell_shapes<Dim>(mesh, field, cells, values, integral, options, known);
+    cell_shapes<Dim>(mesh, field, cells, values, integral, options, known, &report.complexity);
     report.shape = statistics(values);
     report.shape_integral = statistics(integral);
   }
@@ -91,20 +95,20 @@ Report measure(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
   if (!report.valid) report.defect = defects[0].message;
   if (!walkable<Dim>(defects)) return report;
 
-  LengthOptions options;
-  options.panel = default_panel<Dim>(mesh.points);
+  const LengthOptions options{.tolerance = 1e-5, .panel = default_panel<Dim>(mesh.points)};
   const std::vector<std::array<VertexId, 2>> edges = sorted_edges(mesh);
   std::vector<double> lengths(edges.size());
   edge_lengths<Dim>(field, mesh.points, edges, lengths, options);
   report.edges = static_cast<Index>(edges.size());
   report.edge_length = statistics(lengths);
   measure_cells(mesh, field, options, {edges, lengths}, report);
-  if constexpr (Dim == 2) report.misalignment = mean_misalignment(mesh, field);
+  if constexpr (Dim == 2) report.misalignment = mean_misalignment(mesh, field, edges);
   for (const unsigned char mark : irregular_vertices(mesh)) report.irregular_vertices += mark;
-  // Errors of many cells cancel each other: the sum is as exact as that over a few dozen.
-  const double many = std::clamp(std::sqrt(report.cells) / 8.0, 1.0, 10.0);
-  const double tolerance = (Dim == 2 ? 1e-4 : 3e-4) * many;
-  report.complexity = complexity(mesh, field, VolumeOptions::for_panel(Dim, options.panel, tolerance));
+  if constexpr (Dim == 3) {
+    // Errors of many cells cancel each other: the sum is as exact as that over a few dozen.
+    const double many = std::clamp(std::sqrt(report.cells) / 8.0, 1.0, 10.0);
+    report.complexity = complexity(mesh, field, VolumeOptions::for_panel(3, options.panel, 3e-4 * many));
+  }
   return report;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pillowmesh/mesh/portable_math.h"
+#include "pillowmesh/metric/quad_area.h"
 #include "pillowmesh/quality/corner_simplex.h"
 
 namespace pillowmesh {
@@ -96,6 +97,54 @@ double flat_volume(const SimplexLengths<3>& l) {
   return minor > 0.0 && det > 0.0 ? std::sqrt(det) / 6.0 : 0.0;
 }
 
+// Metric volumes of all corner simplices of a chunk of cells.
+template <int Dim>
+class SimplexVolumes;
+
+template <>
+class SimplexVolumes<2> {
+ public:
+  SimplexVolumes(const MetricField<2>& field, double panel) : field_(field), options_(VolumeOptions::for_panel(2, panel, 1e-3)) {}
+
+  void measure(const Mesh<2>& mesh, std::span<const CellId> cells) {
+    quads_.resize(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      for (int k = 0; k < 4; ++k) quads_[i][k] = mesh.points[mesh.cells[cells[i]][k]];
+    areas_.resize(cells.size());
+    quad_areas(field_, quads_, areas_, options_);
+  }
+  [[nodiscard]] double simplex(std::size_t i, int k) const { return areas_[i][k]; }
+  /// Those at two opposite corners make the cell, as do the other two.
+  [[nodiscard]] double cell(std::size_t i) const { return areas_[i][0] + areas_[i][3]; }
+
+ private:
+  const MetricField<2>& field_;
+  VolumeOptions options_;
+  std::vector<CornerPoints<2>> quads_;
+  std::vector<CornerAreas> areas_;
+};
+
+template <>
+class SimplexVolumes<3> {
+ public:
+  SimplexVolumes(const MetricField<3>& field, double panel) : field_(field), options_(VolumeOptions::for_panel(3, panel, 5e-3)) {}
+
+  void measure(const Mesh<3>& mesh, std::span<const CellId> cells) {
+    simplices_.clear();
+    for (const CellId c : cells)
+      for (int k = 0; k < 8; ++k) simplices_.push_back(corner_simplex<3>(mesh, c, k));
+    volumes_.resize(simplices_.size());
+    simplex_volumes(field_, simplices_, volumes_, options_);
+  }
+  [[nodiscard]] double simplex(std::size_t i, int k) const { return volumes_[8 * i + k]; }
+
+ private:
+  const MetricField<3>& field_;
+  VolumeOptions options_;
+  std::vector<SimplexPoints<3>> simplices_;
+  std::vector<double> volumes_;
+};
+
 template <int Dim>
 double least(const std::array<double, Cell<Dim>::corners>& values) {
   return *std::min_element(values.begin(), values.end());
@@ -123,34 +172,28 @@ double simplex_shape(const SimplexLengths<Dim>& lengths) {
 template <int Dim>
 void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
                  std::span<double> flat, std::span<double> integral, const LengthOptions& options,
-                 const KnownLengths& known) {
+                 const KnownLengths& known, double* area) {
   constexpr std::size_t kChunk = 1024;
   constexpr int kCorners = Cell<Dim>::corners;
-  const VolumeOptions volume_options = VolumeOptions::for_panel(Dim, options.panel, Dim == 2 ? 1e-3 : 5e-3);
   SimplexEdges<Dim> edges;
-  std::vector<SimplexPoints<Dim>> simplices;
-  std::vector<double> volumes;
+  SimplexVolumes<Dim> volumes(field, options.panel);
   for (std::size_t start = 0; start < cells.size(); start += kChunk) {
     const std::span<const CellId> chunk = cells.subspan(start, std::min(kChunk, cells.size() - start));
     edges.measure(mesh, field, chunk, options, known);
-    if (!integral.empty()) {
-      simplices.clear();
-      for (const CellId c : chunk) {
-        for (int k = 0; k < kCorners; ++k) simplices.push_back(corner_simplex<Dim>(mesh, c, k));
-      }
-      volumes.resize(simplices.size());
-      simplex_volumes<Dim>(field, simplices, volumes, volume_options);
-    }
+    if (!integral.empty()) volumes.measure(mesh, chunk);
     for (std::size_t i = 0; i < chunk.size(); ++i) {
       std::array<double, kCorners> eta;
       std::array<double, kCorners> eta_integral{};
       for (int k = 0; k < kCorners; ++k) {
         const SimplexLengths<Dim> l = edges.simplex(i, k);
         eta[k] = simplex_shape<Dim>(l);
-        if (!integral.empty()) eta_integral[k] = simplex_shape<Dim>(l, volumes[i * kCorners + k]);
+        if (!integral.empty()) eta_integral[k] = simplex_shape<Dim>(l, volumes.simplex(i, k));
       }
       flat[start + i] = least<Dim>(eta);
       if (!integral.empty()) integral[start + i] = least<Dim>(eta_integral);
+      if constexpr (Dim == 2) {
+        if (area != nullptr) *area += volumes.cell(i);
+      }
     }
   }
 }
@@ -159,7 +202,7 @@ void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span
   template double simplex_shape<D>(const SimplexLengths<D>&);                                                     \
   template double simplex_shape<D>(const SimplexLengths<D>&, double);                                             \
   template void cell_shapes<D>(const Mesh<D>&, const MetricField<D>&, std::span<const CellId>, std::span<double>, \
-                               std::span<double>, const LengthOptions&, const KnownLengths&);
+                               std::span<double>, const LengthOptions&, const KnownLengths&, double*);
 PILLOWMESH_INSTANTIATE(2)
 PILLOWMESH_INSTANTIATE(3)
 #undef PILLOWMESH_INSTANTIATE

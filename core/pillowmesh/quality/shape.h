@@ -37,9 +37,10 @@ struct KnownLengths {
 /// \param integral out: with the integral of sqrt(det M) over the corner simplices, to 0.1 %; may be empty.
 /// \param options how all edges and diagonals of the simplices are integrated.
 /// \param known lengths found with the same options: these edges are not integrated again.
+/// \param area 2D, with `integral`: the metric areas of the cells are added to it; may be null.
 template <int Dim>
 void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
                  std::span<double> flat, std::span<double> integral, const LengthOptions& options = {},
-                 const KnownLengths& known = {});
+                 const KnownLengths& known = {}, double* area = nullptr);
 
 }  // namespace pillowmesh

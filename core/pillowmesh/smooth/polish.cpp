@@ -184,7 +184,7 @@ class Polisher {
       simplices[n] = corner_simplex(mesh_, c, i);
       at[n++] = i;
     }
-    simplex_volumes<3>(field_, std::span(simplices).first(n), std::span(found).first(n), {.tolerance = 2e-2});
+    simplex_volumes(field_, std::span(simplices).first(n), std::span(found).first(n), {.tolerance = 2e-2});
     for (std::size_t i = 0; i < n; ++i) m.volume[at[i]] = found[i];
   }
 

@@ -1,0 +1,155 @@
+#include "pillowmesh/metric/quad_area.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace pillowmesh {
+namespace {
+
+// Two orbits of three points, whose barycentric coordinates are kNear, kNear, 1 - 2 kNear, and so on, and the centroid.
+// [J. Radon, Zur mechanischen Kubatur, Monatsh. Math. 52 (1948)]
+constexpr double kNear = 0.1012865073234563388009874, kFar = 0.4701420641051150897704412;
+constexpr double kWeight = 0.225, kWeightNear = 0.1259391805448271525956839, kWeightFar = 0.1323941527885061807376495;
+// Of the centroid and the near orbit alone: exact to degree 2 where the mean of a squared coordinate is 1/6.
+constexpr double kCheckNear = (1.0 / 6) / (3 * (2 * kNear * kNear + (1 - 2 * kNear) * (1 - 2 * kNear)) - 1);
+constexpr int kPoints = 7;
+
+struct Triangle {
+  Index owner;
+  std::array<Point<2>, 3> p;
+};
+
+double cross(const Point<2>& a, const Point<2>& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+// The quarters of a chunk of quadrilaterals, breadth first: the order in which those of one are summed does not depend on
+// the others.
+class AreaIntegrator {
+ public:
+  static constexpr std::size_t kChunk = 64;  // quadrilaterals
+
+  AreaIntegrator(const MetricField<2>& field, const VolumeOptions& options) : field_(field), options_(options) {}
+
+  void run(std::span<const CornerPoints<2>> quads, std::span<CornerAreas> areas) {
+    std::array<bool, kChunk> convex;
+    triangles_.clear();
+    for (std::size_t i = 0; i < quads.size(); ++i) convex[i] = add(static_cast<Index>(i), quads[i]);
+    integrate(4 * quads.size());
+    for (std::size_t i = 0; i < quads.size(); ++i)
+      for (int k = 0; k < 4; ++k) {
+        const double* part = &area_[4 * i];
+        areas[i][kAround[k]] = convex[i] ? part[k] + part[(k + 3) & 3] : part[k];
+      }
+  }
+
+ private:
+  static constexpr std::array<int, 4> kAround{0, 1, 3, 2};  // corners counterclockwise
+  static constexpr int kBatch = kLanes / kPoints;
+  static constexpr int kMaxDepth = 20, kMostPanels = 8;  // halvings
+
+  /// Part k lies between the corners k and k + 1, counterclockwise; that of what is not convex is the corner triangle k.
+  bool add(Index quad, const CornerPoints<2>& corners) {
+    std::array<Point<2>, 4> p;
+    for (int k = 0; k < 4; ++k) p[k] = corners[kAround[k]];
+    const Point<2> d = p[2] - p[0], e = p[3] - p[1];
+    const double all = cross(d, e), u = cross(p[1] - p[0], e) / all, v = cross(p[1] - p[0], d) / all;
+    const bool convex = u > 0 && u < 1 && v > 0 && v < 1;
+    const Point<2> middle = p[0] + u * d;
+    for (int k = 0; k < 4; ++k)
+      add_panels({4 * quad + k, {p[k], p[(k + 1) & 3], convex ? middle : p[(k + 3) & 3]}}, kMostPanels);
+    return convex;
+  }
+
+  void add_panels(const Triangle& t, int more) {
+    double longest = 0.0;
+    for (int k = 0; k < 3; ++k) longest = std::max(longest, (t.p[(k + 1) % 3] - t.p[k]).squaredNorm());
+    if (more == 0 || !(options_.panel > 0.0) || !(longest > options_.panel * options_.panel)) return triangles_.push_back(t);
+    for (const Triangle& half : halves(t)) add_panels(half, more - 1);
+  }
+
+  static std::array<Triangle, 2> halves(const Triangle& t) {
+    int first = 0;  // of the longest edge
+    for (int k = 1; k < 3; ++k)
+      if ((t.p[(k + 1) % 3] - t.p[k]).squaredNorm() > (t.p[(first + 1) % 3] - t.p[first]).squaredNorm()) first = k;
+    const Point<2>&a = t.p[first], &b = t.p[(first + 1) % 3], &c = t.p[(first + 2) % 3], middle = 0.5 * (a + b);
+    return {{{t.owner, {c, a, middle}}, {t.owner, {b, c, middle}}}};
+  }
+
+  void integrate(std::size_t owners) {
+    area_.fill(0.0);
+    std::array<double, 4 * kChunk> reference{};
+    for (int depth = 0; !triangles_.empty(); ++depth) {
+      estimate();
+      if (depth == 0)
+        for (std::size_t i = 0; i < triangles_.size(); ++i) reference[triangles_[i].owner] += std::fabs(fine_[i]);
+      next_.clear();
+      for (std::size_t i = 0; i < triangles_.size(); ++i) {
+        const Triangle& t = triangles_[i];
+        // As in volume.cpp: between a share per triangle and a share per area.
+        const double allowed = 3.0 * options_.tolerance * std::sqrt(std::fabs(fine_[i]) * reference[t.owner]);
+        if (depth < kMaxDepth && difference_[i] > allowed) {
+          for (const Triangle& half : halves(t)) next_.push_back(half);
+        } else {
+          area_[t.owner] += fine_[i];
+        }
+      }
+      triangles_.swap(next_);
+    }
+  }
+
+  // Both rules on every triangle. One beside the other, so that loops vectorise.
+  void estimate() {
+    fine_.resize(triangles_.size());
+    difference_.resize(triangles_.size());
+    for (std::size_t start = 0; start < triangles_.size(); start += kBatch) {
+      const int n = static_cast<int>(std::min<std::size_t>(kBatch, triangles_.size() - start));
+      for (int i = 0; i < n; ++i) {
+        const std::array<Point<2>, 3>& p = triangles_[start + i].p;
+        for (int d = 0; d < 2; ++d) {
+          const double sum = p[0][d] + p[1][d] + p[2][d];
+          points_[d][i] = sum / 3;
+          for (int k = 0; k < 3; ++k) {
+            points_[d][(1 + k) * n + i] = kNear * sum + (1 - 3 * kNear) * p[k][d];
+            points_[d][(4 + k) * n + i] = kFar * sum + (1 - 3 * kFar) * p[k][d];
+          }
+        }
+      }
+      field_.evaluate(points_, kPoints * n, tensors_);
+      Lanes density;
+      for (int i = 0; i < kPoints * n; ++i) {
+        const double det = tensors_[0][i] * tensors_[2][i] - tensors_[1][i] * tensors_[1][i];
+        density[i] = std::sqrt(det < 0.0 ? 0.0 : det);
+      }
+      for (int i = 0; i < n; ++i) {
+        const double* f = &density[i];
+        const double near = f[n] + f[2 * n] + f[3 * n], far = f[4 * n] + f[5 * n] + f[6 * n];
+        const std::array<Point<2>, 3>& p = triangles_[start + i].p;
+        const double area = 0.5 * cross(p[1] - p[0], p[2] - p[0]);
+        const double fine = kWeight * f[0] + kWeightNear * near + kWeightFar * far;
+        fine_[start + i] = area * fine;
+        difference_[start + i] = std::fabs(area * (fine - ((1 - 3 * kCheckNear) * f[0] + kCheckNear * near)));
+      }
+    }
+  }
+
+  const MetricField<2>& field_;
+  VolumeOptions options_;
+  std::vector<Triangle> triangles_, next_;
+  std::vector<double> fine_, difference_;
+  std::array<double, 4 * kChunk> area_;
+  PointLanes<2> points_;
+  TensorLanes<2> tensors_;
+};
+
+}  // namespace
+
+void quad_areas(const MetricField<2>& field, std::span<const CornerPoints<2>> quads, std::span<CornerAreas> areas,
+                const VolumeOptions& options) {
+  AreaIntegrator integrator(field, options);
+  for (std::size_t start = 0; start < quads.size(); start += AreaIntegrator::kChunk) {
+    const std::size_t count = std::min(AreaIntegrator::kChunk, quads.size() - start);
+    integrator.run(quads.subspan(start, count), areas.subspan(start, count));
+  }
+}
+
+}  // namespace pillowmesh
