@@ -52,7 +52,8 @@ EnergyWeights Balance::last(double energy) {
   return {.alignment = kLastAlignment * alignment_,
           .shape = kLastShape,
           .obtuse = last_obtuse(options_.effort) * energy * std::sqrt(energy),
-          .length = kLastLength};
+          .length = kLastLength,
+          .rough = 2.0};
 }
 
 void Balance::adjust(EnergyWeights& last, const QuadRelocator::Indicators& left) const {

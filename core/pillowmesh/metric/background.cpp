@@ -7,7 +7,6 @@ namespace pillowmesh {
 namespace {
 
 constexpr int kRoots = 16;  ///< along each side of the box
-constexpr int kDepth = 24;
 
 /// |H^-1 (K - H)|_F
 double difference(const SizeTensor& H, const SizeTensor& K) {
@@ -46,6 +45,10 @@ SizeTensor size_tensor(const SymTensor<2>& M) {
 Background::Background(MetricField<2> field, const Point<2>& low, const Point<2>& high,
                        const BackgroundOptions& options)
     : field_(std::move(field)), options_(options), low_(low), cell_((high - low) / kRoots) {
+  for (int depth = 0; depth <= kDepth; ++depth) {
+    const double twice = 2.0 * static_cast<double>(1 << depth);
+    scale_[depth] = {twice / cell_[0], twice / cell_[1]};
+  }
   nodes_.resize(kRoots * kRoots);
   leaves_.reserve(4096);
   for (int j = 0; j < kRoots; j += 2)
@@ -53,7 +56,7 @@ Background::Background(MetricField<2> field, const Point<2>& low, const Point<2>
       // Four roots at a time are the children of a square twice as large.
       const Index first = static_cast<Index>(nodes_.size());
       nodes_.resize(nodes_.size() + 4);
-      make_children(first, low_[0] + (i + 1) * cell_[0], low_[1] + (j + 1) * cell_[1], cell_[0], cell_[1]);
+      make_children(first, low_[0] + (i + 1) * cell_[0], low_[1] + (j + 1) * cell_[1], 0);
       for (int k = 0; k < 4; ++k) nodes_[(j + (k >> 1)) * kRoots + i + (k & 1)] = nodes_[first + k];
       nodes_.resize(first);
     }
@@ -64,19 +67,18 @@ Background::Place Background::descend(const Point<2>& p, Index& leaf) {
   const double fy = std::clamp((p[1] - low_[1]) / cell_[1], 0.0, double{kRoots});
   const int i = std::min(static_cast<int>(fx), kRoots - 1), j = std::min(static_cast<int>(fy), kRoots - 1);
   Index n = j * kRoots + i;
-  double u = 2.0 * (fx - i) - 1.0, v = 2.0 * (fy - j) - 1.0, scale = 1.0;
+  double u = 2.0 * (fx - i) - 1.0, v = 2.0 * (fy - j) - 1.0;
   std::int64_t column = i, row = j;  // of the square among those of its level: where it is must not depend on p's rounding
   for (int depth = 0;; ++depth) {
     if (nodes_[n].child < 0) {
       if (nodes_[n].rough == 0 || depth == kDepth) break;
-      const double hx = 0.5 * cell_[0] / scale, hy = 0.5 * cell_[1] / scale;
-      divide(n, low_[0] + static_cast<double>(2 * column + 1) * hx, low_[1] + static_cast<double>(2 * row + 1) * hy, hx, hy);
+      const Point<2>& s = scale_[depth];
+      divide(n, low_[0] + static_cast<double>(2 * column + 1) / s[0], low_[1] + static_cast<double>(2 * row + 1) / s[1], depth + 1);
     }
     const int right = u >= 0, up = v >= 0;
     n = nodes_[n].child + 2 * up + right;
     u = 2.0 * u + (right ? -1.0 : 1.0);
     v = 2.0 * v + (up ? -1.0 : 1.0);
-    scale *= 2.0;
     column = 2 * column + right;
     row = 2 * row + up;
   }
@@ -86,10 +88,10 @@ Background::Place Background::descend(const Point<2>& p, Index& leaf) {
   return place(leaves_[leaf], fx > 0 && fx < kRoots && fy > 0 && fy < kRoots ? p : inside);
 }
 
-void Background::divide(Index node, double x, double y, double half_x, double half_y) {
+void Background::divide(Index node, double x, double y, int depth) {
   const Index first = static_cast<Index>(nodes_.size());
   nodes_.resize(nodes_.size() + 4);
-  make_children(first, x, y, half_x, half_y);
+  make_children(first, x, y, depth);
   // What was a leaf was never handed out: the last child takes its place.
   Node& last = nodes_[first + 3];
   leaves_[~nodes_[node].child] = leaves_.back();
@@ -98,7 +100,8 @@ void Background::divide(Index node, double x, double y, double half_x, double ha
   nodes_[node].child = first;
 }
 
-void Background::make_children(Index first, double x, double y, double half_x, double half_y) {
+void Background::make_children(Index first, double x, double y, int depth) {
+  const double half_x = 2.0 / scale_[depth][0], half_y = 2.0 / scale_[depth][1];
   // 5 x 5 points are the 3 x 3 of each child; 2 x 2 more in each child are where it is compared.
   std::array<Point<2>, 41> points;
   std::array<SymTensor<2>, 41> M;
@@ -112,8 +115,7 @@ void Background::make_children(Index first, double x, double y, double half_x, d
     Leaf leaf;
     leaf.x = x + ((k & 1) ? 0.5 : -0.5) * half_x;
     leaf.y = y + ((k >> 1) ? 0.5 : -0.5) * half_y;
-    leaf.scale_x = 2.0 / half_x;
-    leaf.scale_y = 2.0 / half_y;
+    leaf.depth = static_cast<std::uint8_t>(depth);
     for (int e = 0; e < 3; ++e) {
       std::array<double, 9> f;
       for (int j = 0; j < 3; ++j)
@@ -161,16 +163,17 @@ SizeTensor Background::evaluate(const Place& at) {
   return {out[0], out[1], out[2]};
 }
 
-SizeJet Background::evaluate_jet(const Place& at) {
+SizeJet Background::evaluate_jet(const Place& at) const {
   const double u = at.u, v = at.v;
+  const Point<2>& scale = scale_[at.leaf->depth];
   std::array<double, 3> f, fu, fv;
   for (int e = 0; e < 3; ++e) {
     const std::array<double, 9> k = at.coefficients(e);
     const double r0 = k[0] + u * (k[1] + u * k[2]), r1 = k[3] + u * (k[4] + u * k[5]), r2 = k[6] + u * (k[7] + u * k[8]);
     const double s0 = k[1] + 2.0 * u * k[2], s1 = k[4] + 2.0 * u * k[5], s2 = k[7] + 2.0 * u * k[8];
     f[e] = r0 + v * (r1 + v * r2);
-    fu[e] = (s0 + v * (s1 + v * s2)) * at.leaf->scale_x;
-    fv[e] = (r1 + 2.0 * v * r2) * at.leaf->scale_y;
+    fu[e] = (s0 + v * (s1 + v * s2)) * scale[0];
+    fv[e] = (r1 + 2.0 * v * r2) * scale[1];
   }
   return {{f[0], f[1], f[2]}, {fu[0], fu[1], fu[2]}, {fv[0], fv[1], fv[2]}};
 }

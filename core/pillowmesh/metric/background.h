@@ -46,15 +46,19 @@ class Background {
   SizeTensor at(const Point<2>& p) { return evaluate(locate(p, last_)); }
   SizeJet jet(const Point<2>& p) { return evaluate_jet(locate(p, last_)); }
   /// The same, less than that where p is near the point that `hint` (kNone at first) was last used for.
+  SizeTensor at(const Point<2>& p, Index& hint) { return evaluate(locate(p, hint)); }
   SizeJet jet(const Point<2>& p, Index& hint) { return evaluate_jet(locate(p, hint)); }
 
   [[nodiscard]] std::size_t leaves() const { return leaves_.size(); }
 
  private:
-  /// Coefficients of u^i v^j of a, b and c at [3 * j + i], u and v from -1 to 1 in the leaf.
-  struct Leaf {
+  static constexpr int kDepth = 24;
+  /// Two lines of the cache.
+  struct alignas(64) Leaf {
+    double x, y;  ///< its centre
+    /// Coefficients of u^i v^j of a, b and c at [3 * j + i], u and v from -1 to 1 in the leaf.
     std::array<std::array<float, 9>, 3> k;
-    double x, y, scale_x, scale_y;  ///< u = (p[0] - x) scale_x
+    std::uint8_t depth;
   };
   /// child >= 0: the first of four nodes; else leaf ~child, which may have to be divided.
   struct Node {
@@ -71,8 +75,9 @@ class Background {
     }
   };
 
-  static Place place(const Leaf& leaf, const Point<2>& p) {
-    return {&leaf, (p[0] - leaf.x) * leaf.scale_x, (p[1] - leaf.y) * leaf.scale_y};
+  [[nodiscard]] Place place(const Leaf& leaf, const Point<2>& p) const {
+    const Point<2>& scale = scale_[leaf.depth];
+    return {&leaf, (p[0] - leaf.x) * scale[0], (p[1] - leaf.y) * scale[1]};
   }
   Place locate(const Point<2>& p, Index& hint) {
     // Who asks for one point often asks for another near it.
@@ -83,14 +88,16 @@ class Background {
     return descend(p, hint);
   }
   Place descend(const Point<2>& p, Index& leaf);
-  void divide(Index node, double x, double y, double half_x, double half_y);
-  void make_children(Index first, double x, double y, double half_x, double half_y);
-  static SizeTensor evaluate(const Place& at);
-  static SizeJet evaluate_jet(const Place& at);
+  void divide(Index node, double x, double y, int depth);
+  /// Of a square with this centre, whose children are of this depth.
+  void make_children(Index first, double x, double y, int depth);
+  [[nodiscard]] static SizeTensor evaluate(const Place& at);
+  [[nodiscard]] SizeJet evaluate_jet(const Place& at) const;
 
   MetricField<2> field_;
   BackgroundOptions options_;
   Point<2> low_, cell_;
+  std::array<Point<2>, kDepth + 1> scale_;  ///< of leaves by their depth: u = (p[0] - x) scale[0]
   std::vector<Node> nodes_;
   std::vector<Leaf> leaves_;
   Index last_ = kNone;

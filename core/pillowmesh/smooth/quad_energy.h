@@ -61,7 +61,7 @@ struct EnergyWeights {
   double length = 0.0;
   /// Where sizes between the ends of an edge cannot be told from there: how much the derivatives may differ from the
   /// change, relative to the least size. 1: lengths are then off by about 1 % at the most.
-  double rough = 2.0;
+  double rough = 4.0;
 };
 
 /// Where the two points of Gauss's rule are on an edge; their t (1 - t) is 1/6.
@@ -70,8 +70,7 @@ inline constexpr double kGauss = 0.21132486540518713, kGauss2 = 0.78867513459481
 template <class R>
 struct EdgeSizes {
   R a1, b1, c1, a2, b2, c2, det1, det2;
-  std::array<bool, kWidth<R>> rough;  ///< looked up, since they cannot be told from the ends:
-  std::array<SizeJet, kWidth<R>> jet1, jet2;
+  std::array<bool, kWidth<R>> rough;  ///< looked up, since they cannot be told from the ends
 };
 
 inline double lane(double a, int) { return a; }
@@ -85,10 +84,10 @@ PILLOWMESH_LANES void set_lane(R& a, int i, double value) {
   a[i] = value;
 }
 
-/// px, py: the position of p, in this leaf of the background.
-template <class R>
-PILLOWMESH_LANES EdgeSizes<R> edge_sizes(Background& background, Index leaf, double rough, const R& px, const R& py, const R& ex, const R& ey, const JetOf<R>& p,
-                               const JetOf<R>& q) {
+/// px, py: the position of p. look_up(k, lane, place) gives sizes there, at the first (k = 0) or second point of the rule.
+template <class R, class LookUp>
+PILLOWMESH_LANES EdgeSizes<R> edge_sizes(double rough, const R& px, const R& py, const R& ex, const R& ey, const JetOf<R>& p,
+                               const JetOf<R>& q, LookUp look_up) {
   constexpr double u1 = kGauss2 / 6, w1 = kGauss / 6;
   EdgeSizes<R> s;
   R off = same<R>(0);
@@ -107,10 +106,8 @@ PILLOWMESH_LANES EdgeSizes<R> edge_sizes(Background& background, Index leaf, dou
     s.rough[i] = !(lane(off, i) < lane(least, i));
     if (!s.rough[i]) continue;
     const double x = lane(px, i), y = lane(py, i), dx = lane(ex, i), dy = lane(ey, i);
-    Index there = leaf;
-    s.jet1[i] = background.jet({x + kGauss * dx, y + kGauss * dy}, there);
-    s.jet2[i] = background.jet({x + kGauss2 * dx, y + kGauss2 * dy}, there);
-    const SizeTensor &H1 = s.jet1[i].H, &H2 = s.jet2[i].H;
+    const SizeTensor H1 = look_up(0, i, Point<2>(x + kGauss * dx, y + kGauss * dy));
+    const SizeTensor H2 = look_up(1, i, Point<2>(x + kGauss2 * dx, y + kGauss2 * dy));
     set_lane(s.a1, i, H1.a), set_lane(s.b1, i, H1.b), set_lane(s.c1, i, H1.c);
     set_lane(s.a2, i, H2.a), set_lane(s.b2, i, H2.b), set_lane(s.c2, i, H2.c);
   }
@@ -124,7 +121,7 @@ PILLOWMESH_LANES EdgeSizes<R> edge_sizes(Background& background, Index leaf, dou
 template <class R>
 PILLOWMESH_LANES EdgeTermOf<R> edge_term(Background& background, Index leaf, double rough, const R& px, const R& py, const R& ex, const R& ey, const JetOf<R>& p,
                                const JetOf<R>& q) {
-  const EdgeSizes<R> s = edge_sizes(background, leaf, rough, px, py, ex, ey, p, q);
+  const EdgeSizes<R> s = edge_sizes(rough, px, py, ex, ey, p, q, [&](int, int, const Point<2>& x) { return background.at(x, leaf); });
   const R x1 = s.c1 * ex - s.b1 * ey, y1 = s.a1 * ey - s.b1 * ex, x2 = s.c2 * ex - s.b2 * ey, y2 = s.a2 * ey - s.b2 * ex;
   EdgeTermOf<R> term;
   term.l = 0.5 * (root(x1 * x1 + y1 * y1) * s.det2 + root(x2 * x2 + y2 * y2) * s.det1) / (s.det1 * s.det2);
