@@ -46,15 +46,15 @@ using EdgeSlope = EdgeSlopeOf<double>;
 
 /// Of the edge e = q - p with p = x, these terms, and sizes at its ends.
 template <class R>
-PILLOWMESH_LANES EdgeSlopeOf<R> edge_slope(Background& background, Index leaf, const EnergyWeights& weights, const R& px, const R& py, const R& ex, const R& ey,
+PILLOWMESH_LANES EdgeSlopeOf<R> edge_slope(const EdgeLookup& at, const EnergyWeights& weights, const R& px, const R& py, const R& ex, const R& ey,
                                  const EdgeTermOf<R>& term, const JetOf<R>& p, const JetOf<R>& q) {
-  std::array<std::array<SizeJet, kWidth<R>>, 2> jets;
-  const auto look_up = [&](int k, int lane, const Point<2>& x) { return (jets[k][lane] = background.jet(x, leaf)).H; };
-  const EdgeSizes<R> s = edge_sizes(weights.rough, px, py, ex, ey, p, q, look_up);
+  std::array<SizeJet, 2 * kWidth<R>> jets;
+  const auto look_up = [&](int k, const Point<2>& x) { return (jets[k] = at.background.jet(x, at.hints[k])).H; };
+  const EdgeSizes<R> s = edge_sizes(at.lanes, weights.rough, px, py, ex, ey, p, q, look_up);
   EdgeSlopeOf<R> d;
   d.lx = d.ly = same<R>(0);
   // A place t of the way from x to q moves by (1 - t) of what x does.
-  const auto sample = [&](double t, const auto& found, const R& a, const R& b, const R& c, const R& det) PILLOWMESH_LANES_LAMBDA {
+  const auto sample = [&](double t, int k, const R& a, const R& b, const R& c, const R& det) PILLOWMESH_LANES_LAMBDA {
     const R x = c * ex - b * ey, y = a * ey - b * ex, n = root(x * x + y * y);
     const R both = 1.0 / (n * det), i_det = n * both, l = n * i_det;
     const double w = 1.0 - t;
@@ -62,7 +62,7 @@ PILLOWMESH_LANES EdgeSlopeOf<R> edge_slope(Background& background, Index leaf, c
     R ay = w * p.ay + t * q.ay, by = w * p.by + t * q.by, cy = w * p.cy + t * q.cy;
     for (int i = 0; i < kWidth<R>; ++i) {
       if (!s.rough[i]) continue;
-      const SizeJet& j = found[i];
+      const SizeJet& j = jets[2 * i + k];
       set_lane(ax, i, j.dx.a), set_lane(bx, i, j.dx.b), set_lane(cx, i, j.dx.c);
       set_lane(ay, i, j.dy.a), set_lane(by, i, j.dy.b), set_lane(cy, i, j.dy.c);
     }
@@ -72,8 +72,8 @@ PILLOWMESH_LANES EdgeSlopeOf<R> edge_slope(Background& background, Index leaf, c
     d.lx = d.lx + 0.5 * (w * by_sizes(ax, bx, cx) - (c * x - b * y) * both);
     d.ly = d.ly + 0.5 * (w * by_sizes(ay, by, cy) - (a * y - b * x) * both);
   };
-  sample(kGauss, jets[0], s.a1, s.b1, s.c1, s.det1);
-  sample(kGauss2, jets[1], s.a2, s.b2, s.c2, s.det2);
+  sample(kGauss, 0, s.a1, s.b1, s.c1, s.det1);
+  sample(kGauss2, 1, s.a2, s.b2, s.c2, s.det2);
 
   const R i_l = 1.0 / term.l;
   d.lx = i_l * d.lx, d.ly = i_l * d.ly;
@@ -100,6 +100,13 @@ PILLOWMESH_LANES EdgeSlopeOf<R> edge_slope(Background& background, Index leaf, c
   d.sy = 0.25 * by_sizes(p.ay + q.ay, p.by + q.by, p.cy + q.cy) - by_e * (ey - r * Gy);
   d.turn = 8.0 * larger(1.0 - 4.0 * i_t2 - 2.0 * term.s, same<R>(0)) / (n * n);
   return d;
+}
+
+template <class R>
+PILLOWMESH_LANES EdgeSlopeOf<R> edge_slope(Background& background, Index leaf, const EnergyWeights& weights, const R& px, const R& py, const R& ex,
+                                 const R& ey, const EdgeTermOf<R>& term, const JetOf<R>& p, const JetOf<R>& q) {
+  EdgeHints<kWidth<R>> hints(leaf);
+  return edge_slope(EdgeLookup{background, hints.data(), kWidth<R>}, weights, px, py, ex, ey, term, p, q);
 }
 
 /// Corner of two edges e1 = q1 - x and e2 = q2 - x in counterclockwise order (Moving = 2), or of a fixed edge e2 and an edge

@@ -84,9 +84,21 @@ PILLOWMESH_LANES void set_lane(R& a, int i, double value) {
   a[i] = value;
 }
 
-/// px, py: the position of p. look_up(k, lane, place) gives sizes there, at the first (k = 0) or second point of the rule.
+/// Where edges, one in each lane, are looked up.
+struct EdgeLookup {
+  Background& background;
+  Index* hints;  ///< two for each lane: leaves where its points may be; then those where they are
+  int lanes;     ///< that count
+};
+/// For a few edges at once: first looked for where p may be.
+template <int N>
+struct EdgeHints : std::array<Index, 2 * N> {
+  explicit EdgeHints(Index leaf) { this->fill(leaf); }
+};
+
+/// px, py: the position of p. look_up(2 * lane + k, place) gives sizes there, at point k of the rule.
 template <class R, class LookUp>
-PILLOWMESH_LANES EdgeSizes<R> edge_sizes(double rough, const R& px, const R& py, const R& ex, const R& ey, const JetOf<R>& p,
+PILLOWMESH_LANES EdgeSizes<R> edge_sizes(int lanes, double rough, const R& px, const R& py, const R& ex, const R& ey, const JetOf<R>& p,
                                const JetOf<R>& q, LookUp look_up) {
   constexpr double u1 = kGauss2 / 6, w1 = kGauss / 6;
   EdgeSizes<R> s;
@@ -103,11 +115,11 @@ PILLOWMESH_LANES EdgeSizes<R> edge_sizes(double rough, const R& px, const R& py,
   const R least = rough * ((p.a * p.c - p.b * p.b) + (q.a * q.c - q.b * q.b));
   off = off * (p.a + p.c + q.a + q.c);
   for (int i = 0; i < kWidth<R>; ++i) {
-    s.rough[i] = !(lane(off, i) < lane(least, i));
+    s.rough[i] = i < lanes && !(lane(off, i) < lane(least, i));
     if (!s.rough[i]) continue;
     const double x = lane(px, i), y = lane(py, i), dx = lane(ex, i), dy = lane(ey, i);
-    const SizeTensor H1 = look_up(0, i, Point<2>(x + kGauss * dx, y + kGauss * dy));
-    const SizeTensor H2 = look_up(1, i, Point<2>(x + kGauss2 * dx, y + kGauss2 * dy));
+    const SizeTensor H1 = look_up(2 * i, Point<2>(x + kGauss * dx, y + kGauss * dy));
+    const SizeTensor H2 = look_up(2 * i + 1, Point<2>(x + kGauss2 * dx, y + kGauss2 * dy));
     set_lane(s.a1, i, H1.a), set_lane(s.b1, i, H1.b), set_lane(s.c1, i, H1.c);
     set_lane(s.a2, i, H2.a), set_lane(s.b2, i, H2.b), set_lane(s.c2, i, H2.c);
   }
@@ -119,9 +131,10 @@ PILLOWMESH_LANES EdgeSizes<R> edge_sizes(double rough, const R& px, const R& py,
 /// Edge e = q - p. Its length is that of Gauss's rule; the misalignment is that in the middle: with r = |e|^2 / (e' G e)
 /// and t = tr G it is 4 (r (t - r) - 1) / t^2.
 template <class R>
-PILLOWMESH_LANES EdgeTermOf<R> edge_term(Background& background, Index leaf, double rough, const R& px, const R& py, const R& ex, const R& ey, const JetOf<R>& p,
+PILLOWMESH_LANES EdgeTermOf<R> edge_term(const EdgeLookup& at, double rough, const R& px, const R& py, const R& ex, const R& ey, const JetOf<R>& p,
                                const JetOf<R>& q) {
-  const EdgeSizes<R> s = edge_sizes(rough, px, py, ex, ey, p, q, [&](int, int, const Point<2>& x) { return background.at(x, leaf); });
+  const auto look_up = [&](int k, const Point<2>& x) { return at.background.at(x, at.hints[k]); };
+  const EdgeSizes<R> s = edge_sizes(at.lanes, rough, px, py, ex, ey, p, q, look_up);
   const R x1 = s.c1 * ex - s.b1 * ey, y1 = s.a1 * ey - s.b1 * ex, x2 = s.c2 * ex - s.b2 * ey, y2 = s.a2 * ey - s.b2 * ex;
   EdgeTermOf<R> term;
   term.l = 0.5 * (root(x1 * x1 + y1 * y1) * s.det2 + root(x2 * x2 + y2 * y2) * s.det1) / (s.det1 * s.det2);
@@ -136,6 +149,13 @@ PILLOWMESH_LANES EdgeTermOf<R> edge_term(Background& background, Index leaf, dou
   // r t = n t / q_A, 1 / t_G^2 = det^2 / t^2.
   term.s = 4.0 * (n * t * q_A - nd * nd - q_A * q_A) * (det * det * det) * i;
   return term;
+}
+
+template <class R>
+PILLOWMESH_LANES EdgeTermOf<R> edge_term(Background& background, Index leaf, double rough, const R& px, const R& py, const R& ex, const R& ey, const JetOf<R>& p,
+                               const JetOf<R>& q) {
+  EdgeHints<kWidth<R>> hints(leaf);
+  return edge_term(EdgeLookup{background, hints.data(), kWidth<R>}, rough, px, py, ex, ey, p, q);
 }
 
 /// Energy of a corner whose edges e1, e2 are in counterclockwise order; not meant for one that is degenerate or inside out

@@ -89,7 +89,7 @@ double QuadRelocator::sum_of_corners(const Point<2>& x, const Row& ex, const Row
   const int n = star_.count;
   const JetOf<R> here = everywhere<R>(size_at_);
   for (int k = 0; k < spoke_count_; k += lanes)
-    next_.store_lanes(k, edge_term<R>(background_, leaf_at_, weights_.rough, same<R>(x[0]), same<R>(x[1]), load<R>(&ex[k]),
+    next_.store_lanes(k, edge_term<R>(look_up(k), weights_.rough, same<R>(x[0]), same<R>(x[1]), load<R>(&ex[k]),
                                       load<R>(&ey[k]), here, spokes_.jet.lanes<R>(k)));
   for (int to = spoke_count_; to < padded(); ++to) next_.copy(again(to), to);
   double sum = 0.0;
@@ -121,6 +121,7 @@ double QuadRelocator::sum_of_corners(const Point<2>& x, const Row& ex, const Row
 bool QuadRelocator::derivatives(VertexId v, Derivatives& sum) {
   if (!collect(v)) return false;
   leaf_at_ = leaf_[v];
+  for (int k = 0; k < spoke_count_; ++k) spokes_.hints[2 * k] = leaf_at_, spokes_.hints[2 * k + 1] = leaf_at_;
   const Point<2> x = mesh_.points[v];
   sum = {};
 #if defined(PILLOWMESH_WIDE)
@@ -141,7 +142,7 @@ void QuadRelocator::add_corners(VertexId v, const Point<2>& x, Derivatives& sum)
   for (int k = 0; k < padded(); ++k) ex[k] = spokes_.qx[k] - x[0], ey[k] = spokes_.qy[k] - x[1];
   std::array<Row, 6> slopes;
   for (int k = 0; k < spoke_count_; k += lanes) {
-    const EdgeSlopeOf<R> d = edge_slope<R>(background_, leaf_at_, weights_, same<R>(x[0]), same<R>(x[1]), load<R>(&ex[k]),
+    const EdgeSlopeOf<R> d = edge_slope<R>(look_up(k), weights_, same<R>(x[0]), same<R>(x[1]), load<R>(&ex[k]),
                                            load<R>(&ey[k]), now_.lanes<R>(k), here, spokes_.jet.lanes<R>(k));
     store(&slopes[0][k], d.lx), store(&slopes[1][k], d.ly), store(&slopes[2][k], d.sx), store(&slopes[3][k], d.sy);
     store(&slopes[4][k], d.frozen), store(&slopes[5][k], d.turn);
@@ -190,17 +191,18 @@ PILLOWMESH_WIDE void QuadRelocator::wide_add_corners(VertexId v, const Point<2>&
 #endif
 
 void QuadRelocator::add_shapes(const Point<2>& x, const Jet& here, Derivatives& sum) {
-  const auto gradient = [&](const Point<2>& e, const EdgeTerm& term, const Jet& there) {
-    const EdgeSlope d = edge_slope(background_, leaf_at_, weights_, x[0], x[1], e[0], e[1], term, here, there);
+  const auto gradient = [&](Index* hints, const Point<2>& e, const EdgeTerm& term, const Jet& there) {
+    const EdgeSlope d = edge_slope(EdgeLookup{background_, hints, 1}, weights_, x[0], x[1], e[0], e[1], term, here, there);
     return Point<2>(term.l * d.lx, term.l * d.ly);
   };
   const auto spoke = [&](int k) {
-    return gradient({spokes_.qx[k] - x[0], spokes_.qy[k] - x[1]}, now_.get(k), spokes_.jet.get(k));
+    return gradient(&spokes_.hints[2 * again(k)], {spokes_.qx[k] - x[0], spokes_.qy[k] - x[1]}, now_.get(k), spokes_.jet.get(k));
   };
   for (int k = 0; k < star_.count; ++k) {
     const Point<2> o(wedges_.ox[k] - x[0], wedges_.oy[k] - x[1]);
-    const EdgeTerm out = edge_term(background_, leaf_at_, weights_.rough, x[0], x[1], o[0], o[1], here, wedges_.jet[k]);
-    const Point<2> da = spoke(k), db = spoke(k + 1), dout = gradient(o, out, wedges_.jet[k]);
+    EdgeHints<1> hints(leaf_at_);
+    const EdgeTerm out = edge_term(EdgeLookup{background_, hints.data(), 1}, weights_.rough, x[0], x[1], o[0], o[1], here, wedges_.jet[k]);
+    const Point<2> da = spoke(k), db = spoke(k + 1), dout = gradient(hints.data(), o, out, wedges_.jet[k]);
     const double a = now_.l[k], b = now_.l[k + 1];
     add_shape(a, &da, b, &db, wedges_.across[k], nullptr, weights_, sum);
     add_shape(wedges_.far.l[2 * k], nullptr, a, &da, out.l, &dout, weights_, sum);

@@ -96,6 +96,7 @@ class QuadRelocator {
     std::array<VertexId, kMost> end;
     Row qx, qy;       ///< positions of the ends
     Jets<kMost> jet;  ///< sizes there
+    std::array<Index, 2 * kMost> hints;  ///< where points on the spokes are looked for: where they were before
   };
   /// Edge terms, each number in a row of its own.
   template <int N>
@@ -141,6 +142,8 @@ class QuadRelocator {
   [[nodiscard]] int again(int k) const { return k < spoke_count_ ? k : (star_.closed ? k % spoke_count_ : spoke_count_ - 1); }
   /// Spokes that are there for four lanes from any fourth on, and one more.
   [[nodiscard]] int padded() const { return ((spoke_count_ + 3) & ~3) + 1; }
+  /// Of the spokes from k on.
+  [[nodiscard]] EdgeLookup look_up(int k) { return {background_, &spokes_.hints[2 * k], spoke_count_ - k}; }
   [[nodiscard]] double try_at(const Point<2>& x, double limit);
   template <class R>
   [[nodiscard]] PILLOWMESH_LANES double sum_of_corners(const Point<2>& x, const Row& ex, const Row& ey, double limit);
