@@ -20,6 +20,10 @@ constexpr double kLeastAlignment = 0.05, kMostAlignment = 1.0;
 /// Weights of the end; that of alignment is in proportion to the one before, that of obtuse corners to the energy of a cell
 /// to the power 3/2. These are guesses that `adjust` makes good.
 constexpr double kLastLength = 0.4, kLastShape = 30.0, kLastAlignment = 1.6;
+/// When topology is settled, what is below this floor has to leave it. Alignment costs shapes: without it the floor is higher.
+constexpr double kFloorWeight = 1000.0, kFloor = 0.63, kFloorUnaligned = 0.64;
+/// Then lengths may be off by about 0.2 %.
+constexpr double kFine = 0.2;
 double last_obtuse(Effort effort) { return effort == Effort::best ? 6.0 : 17.0; }
 /// Of misalignment there may be left: this, and so much more for each unit of energy.
 constexpr double kLeftAlways = 0.068, kLeftByEnergy = 0.42;
@@ -53,7 +57,16 @@ EnergyWeights Balance::last(double energy) {
           .shape = kLastShape,
           .obtuse = last_obtuse(options_.effort) * energy * std::sqrt(energy),
           .length = kLastLength,
-          .rough = 2.0};
+          .rough = 4.0};
+}
+
+EnergyWeights Balance::settled(EnergyWeights last) const {
+  last.rough = kFine;
+  if (last.shape > 0.0) {
+    last.shape = kFloorWeight;
+    last.shape_floor = aligned_ > 0.0 ? kFloor : kFloorUnaligned;
+  }
+  return last;
 }
 
 void Balance::adjust(EnergyWeights& last, const QuadRelocator::Indicators& left) const {

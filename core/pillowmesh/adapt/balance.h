@@ -20,6 +20,8 @@ class Balance {
 
   /// At the end it is lengths and shapes that count. `energy`: of a cell, which tells how much the metric turns.
   [[nodiscard]] EnergyWeights last(double energy);
+  /// Of these, when only positions are left to change.
+  [[nodiscard]] EnergyWeights settled(EnergyWeights last) const;
   /// Corrects weights of the end by what a mesh has left that they have shaped.
   void adjust(EnergyWeights& last, const QuadRelocator::Indicators& left) const;
 

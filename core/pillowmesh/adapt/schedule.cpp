@@ -21,8 +21,8 @@ Budget budget_of(Effort effort, bool diced, int halvings) {
   const bool coarse = halvings > 0;
   switch (effort) {
     case Effort::fast:
-      if (coarse && diced) return {3, 0.25, 0.1, kNoRows, 2, 0, 4, 3, 2, kFewCells};
-      if (coarse) return {6, 0.3, 0.1, kNoRows, 2, 0, 4, 4, 2, kFewCells};
+      if (coarse && diced) return {3, 0.25, 0.1, kNoRows, 0, 0, 3, 2, 1, kFewCells};
+      if (coarse) return {4, 0.3, 0.1, kNoRows, 1, 0, 3, 2, 1, kFewCells};
       if (diced) return {0, 0, 0, kNoRows, 0, 0, 2, 0, 2, kFewCells};
       return {6, 0.3, 0.1, 3, 2, 0, 5, 4, 2, kFewCells};
     case Effort::normal:
@@ -32,7 +32,7 @@ Budget budget_of(Effort effort, bool diced, int halvings) {
     case Effort::best: break;
   }
   if (coarse) return {15, 0.6, 0.05, kNoRows, 20, 0, 5, 40, 100};
-  if (diced) return {220, 0.4, 0.15, kNoRows, 2, 26, 5, 20, 100, kAnyCells, 20};
+  if (diced) return {350, 0.4, 0.15, kNoRows, 2, 26, 5, 20, 60, kAnyCells, 20, 820};
   return {60, 0.6, 0.05, kNoRows, 20, 6, 5, 40, 100};
 }
 
@@ -66,10 +66,21 @@ Schedule::Schedule(Mesh<2>& mesh, const MetricField<2>& field, const AdaptOption
     trial_.kept = [this](Operator op, const Journal& journal) { recorder_.change(op, mesh_, journal, trial_.cavity, iteration_); };
 }
 
-double Schedule::temperature(int pass) const {
-  if (pass >= budget_.hot_passes) return 0.0;
-  if (budget_.hot_passes == 1) return budget_.hot;
-  return budget_.hot * portable::pow(budget_.cool / budget_.hot, static_cast<double>(pass) / (budget_.hot_passes - 1));
+double Schedule::live_cells() const {
+  std::int64_t cells = 0;
+  for (CellId c = 0; c < mesh_.cell_count(); ++c) cells += mesh_.alive(c) ? 1 : 0;
+  return static_cast<double>(cells);
+}
+
+/// How much of the time for hot passes is over.
+double Schedule::cooled() const {
+  const double moves = static_cast<double>(trial_.moves - moves_before_) / hot_moves_;
+  return std::max(moves, static_cast<double>(pass_) / std::max(1, budget_.hot_passes - 1));
+}
+
+double Schedule::temperature() const {
+  if (pass_ >= budget_.hot_passes) return 0.0;
+  return budget_.hot * portable::pow(budget_.cool / budget_.hot, std::min(1.0, cooled()));
 }
 
 /// Energies of the end are about twice those before, and poor shapes cost much: only one to ten changes a round pass at this
@@ -113,6 +124,11 @@ bool Schedule::descend(int most) {
 }
 
 void Schedule::next_pass() {
+  if (pass_ == 0) {
+    moves_before_ = trial_.moves;
+    hot_moves_ = budget_.hot_moves * live_cells();
+  }
+  if (pass_ < budget_.hot_passes && cooled() > 1.0) pass_ = budget_.hot_passes;
   if (pass_ == budget_.hot_passes + budget_.cold_passes) {
     stage_ = Stage::polish;
     end_polish_round();
@@ -120,7 +136,7 @@ void Schedule::next_pass() {
   }
   if (pass_ <= budget_.hot_passes && pass_ % kPassesToBalance == 0) balance_alignment();
   if (pass_ == budget_.hot_passes) trial_.touch_all();
-  search_.begin_pass(temperature(pass_));
+  search_.begin_pass(temperature());
   stage_ = Stage::pass;
 }
 
@@ -144,16 +160,14 @@ void Schedule::end_polish_round() {
   if (polish_ == budget_.polish_rounds || (polish_ > 0 && search_.kept() == 0)) {
     stage_ = Stage::settle;
     sweeps_ = 0;
-    EnergyWeights exact = trial_.relocator.weights();
-    exact.rough = 0.5;
-    trial_.relocator.measure_all(exact);
+    trial_.relocator.measure_all(balance_.settled(trial_.relocator.weights()));
     descent_.restart();
+    // Single vertices first: a few that are pushed hard would hold up all.
+    if (polish_ > 0) begin_sweep();
     return;
   }
   if (polish_++ == 0) {
-    std::int64_t cells = 0;
-    for (CellId c = 0; c < mesh_.cell_count(); ++c) cells += mesh_.alive(c) ? 1 : 0;
-    trial_.relocator.measure_all(balance_.last(trial_.relocator.total_energy() / static_cast<double>(cells)));
+    trial_.relocator.measure_all(balance_.last(trial_.relocator.total_energy() / live_cells()));
     trial_.touch_all();
   } else {
     adjust_balance();
@@ -204,7 +218,10 @@ bool Schedule::step() {
       }
       break;
     case Stage::settle:
-      if (!settle()) stage_ = Stage::done;
+      if (sweeping_)
+        continue_sweep();
+      else if (!settle())
+        stage_ = Stage::done;
       break;
     case Stage::done: break;
   }
@@ -235,7 +252,7 @@ double Schedule::share() const {
   switch (stage_) {
     case Stage::relax: return 0.0;
     case Stage::pass:
-    case Stage::after_pass: return 0.05 + 0.85 * pass_ / (budget_.hot_passes + budget_.cold_passes);
+    case Stage::after_pass: return pass_ < budget_.hot_passes ? 0.05 + 0.8 * std::min(1.0, cooled()) : 0.85;
     case Stage::polish: return 0.9;
     case Stage::settle: return 0.95;
     case Stage::done: break;

@@ -23,6 +23,8 @@ struct Budget {
   int sweeps, relax_sweeps, settle_sweeps;  ///< of single vertices at the beginning; of all at once, then and at the end
   CellId rows_up_to = std::numeric_limits<CellId>::max();  ///< cells that the mesh may have for that
   int warm_rounds = 0;  ///< of the polish: from `cool` to a third of it
+  /// For each cell the hot passes may move so many vertices: where sizes turn and kink, passes are longer, and fewer.
+  double hot_moves = std::numeric_limits<double>::infinity();
 };
 
 /// Improves a quad mesh that layers have refined, step by step. The mesh is valid between steps; it may hold dead cells
@@ -53,7 +55,9 @@ class Schedule {
   void end_polish_round();
   void adjust_balance();
   bool settle();
-  [[nodiscard]] double temperature(int pass) const;
+  [[nodiscard]] double live_cells() const;
+  [[nodiscard]] double cooled() const;
+  [[nodiscard]] double temperature() const;
   [[nodiscard]] double polish_temperature(int round) const;
   void count();
   void count(const std::string& name, std::int64_t total);
@@ -72,6 +76,8 @@ class Schedule {
 
   Stage stage_ = Stage::relax;
   int pass_ = 0;      ///< hot and cold
+  std::int64_t moves_before_ = 0;  ///< the hot passes
+  double hot_moves_ = 1.0;         ///< in them at most
   int polish_ = 0;
   std::map<std::string, std::int64_t> counted_;  ///< of the operations
   int sweeps_ = 0;    ///< in this stage

@@ -61,7 +61,7 @@ struct EnergyWeights {
   double length = 0.0;
   /// Where sizes between the ends of an edge cannot be told from there: how much the derivatives may differ from the
   /// change, relative to the least size. 1: lengths are then off by about 1 % at the most.
-  double rough = 4.0;
+  double rough = 8.0;
 };
 
 /// Where the two points of Gauss's rule are on an edge; their t (1 - t) is 1/6.
