@@ -69,6 +69,14 @@ TEST_CASE("a lookup has the same bits whatever was asked before, with and withou
     REQUIRE((H.a == seen[i].a && H.b == seen[i].b && H.c == seen[i].c));
     REQUIRE((J.a == H.a && J.b == H.b && J.c == H.c));
   }
+  Index near = kNone, far = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point<2> p = 0.01 * points[i] + 0.99 * points[i / 50];  // fifty at a time lie together
+    const SizeTensor H = forwards.at(p), found = backwards.at(p, near);
+    REQUIRE((found.a == H.a && found.b == H.b && found.c == H.c));
+    const SizeTensor J = backwards.jet(points[i], far).H;
+    REQUIRE((J.a == seen[i].a && J.b == seen[i].b && J.c == seen[i].c));
+  }
 }
 
 TEST_CASE("derivatives are those of what is looked up") {

@@ -51,6 +51,25 @@ TEST_CASE("weights of the end come to rest where lengths, shapes and misalignmen
   CHECK(weights.obtuse == first.obtuse);
 }
 
+TEST_CASE("where shapes count, those below a floor have to leave it in the end, and the floor is higher without alignment") {
+  AdaptOptions options;
+  const auto settled = [&](double misalignment) {
+    Balance balance(options, false);
+    balance.alignment_for(misalignment);
+    return balance.settled(balance.last(0.1));
+  };
+  options.align = 1.0;
+  const EnergyWeights aligned = settled(0.1), isotropic = settled(0.0);
+  options.align = 0.0;
+  CHECK(aligned.shape > 10.0 * Balance(options, false).last(0.1).shape);
+  CHECK(isotropic.shape_floor > aligned.shape_floor);
+  CHECK(settled(0.5).shape_floor == isotropic.shape_floor);
+  CHECK(aligned.rough < EnergyWeights{}.rough);
+  // Coarse meshes are not polished: their shapes do not count.
+  const EnergyWeights coarse = Balance(options, true).first();
+  CHECK(Balance(options, true).settled(coarse).shape == 0.0);
+}
+
 TEST_CASE("a weight of alignment that was asked for is kept at the end") {
   AdaptOptions options;
   options.align = 0.3;

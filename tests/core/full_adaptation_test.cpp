@@ -81,6 +81,19 @@ TEST_CASE("full adaptation with effort normal meets sizes and shapes that refine
   CHECK(circle.misalignment < 0.22);
 }
 
+TEST_CASE("where the metric kinks, passes take longer, and there are fewer of them") {
+  const auto moves_of_each_cell = [](const char* name) {
+    const Case* c = find_case(name);
+    Adapter<2> adapter(std::get<Mesh<2>>(*parse_primitive(c->mesh)), formula(std::string(c->formula)), with(Effort::best));
+    CHECK(adapter.run().ok());
+    Mesh<2> out = adapter.mesh();
+    compact(out);
+    return static_cast<double>(adapter.operations().at("relocations")) / out.cell_count();
+  };
+  CHECK(moves_of_each_cell("shock2d") < 1000.0);
+  CHECK(moves_of_each_cell("aniso2d") < 500.0);  // here passes come to an end before moves do
+}
+
 TEST_CASE("a coarse mesh is adapted to larger sizes first and diced; one that fits the metric is not") {
   const auto field = formula("h = 0.03 + 0.02*abs(x)");
   AdaptOptions options = with(Effort::fast);

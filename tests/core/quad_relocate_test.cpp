@@ -202,6 +202,32 @@ TEST_CASE("edges in lanes are measured as each alone, to the bit") {
   }
 }
 
+TEST_CASE("where an edge was looked up before makes no difference, and lanes that do not count are not looked up") {
+  for (const char* text : kVarying) {
+    INFO(text);
+    auto metric = of_formula(text);
+    EdgeHints<4> hints(kNone);
+    int looked_up = 0;
+    for (const auto& [p, q] : some_edges(*MetricField<2>::from_formula(text), 300)) {
+      const auto P = jet_of(metric.jet(p)), Q = jet_of(metric.jet(q));
+      const Point<2> e = q - p;
+      const auto four = [](const JetOf<double>& j) {
+        return JetOf<Four>{same<Four>(j.a),  same<Four>(j.b),  same<Four>(j.c),  same<Four>(j.ax), same<Four>(j.bx),
+                           same<Four>(j.cx), same<Four>(j.ay), same<Four>(j.by), same<Four>(j.cy)};
+      };
+      const EdgeTerm alone = edge_term(metric, kNone, 0.5, p[0], p[1], e[0], e[1], P, Q);
+      const std::array<Index, 8> before = hints;
+      const auto found = edge_term<Four>(EdgeLookup{metric, hints.data(), 3}, 0.5, same<Four>(p[0]), same<Four>(p[1]),
+                                         same<Four>(e[0]), same<Four>(e[1]), four(P), four(Q));
+      for (int k = 0; k < 3; ++k) REQUIRE((found.l[k] == alone.l && found.s[k] == alone.s && found.g12[k] == alone.g12));
+      looked_up += before != hints ? 1 : 0;
+    }
+    CHECK(hints[6] == kNone);
+    CHECK(hints[7] == kNone);
+    CHECK(looked_up > 0);
+  }
+}
+
 TEST_CASE("lengths told from the ends of an edge are near the integral, at kinks and jumps of the metric too") {
   for (const char* text : kVarying) {
     INFO(text);
