@@ -21,7 +21,7 @@ constexpr double kLeastAlignment = 0.05, kMostAlignment = 1.0;
 /// to the power 3/2. These are guesses that `adjust` makes good.
 constexpr double kLastLength = 0.4, kLastShape = 30.0, kLastAlignment = 1.6;
 /// When topology is settled, what is below this floor has to leave it. Alignment costs shapes: without it the floor is higher.
-constexpr double kFloorWeight = 1000.0, kFloor = 0.63, kFloorUnaligned = 0.64;
+constexpr double kFloorWeight = 1000.0, kFloor = 0.63, kFloorUnaligned = 0.65;
 /// Then lengths may be off by about 0.2 %.
 constexpr double kFine = 0.2;
 double last_obtuse(Effort effort) { return effort == Effort::best ? 6.0 : 17.0; }
@@ -29,7 +29,7 @@ double last_obtuse(Effort effort) { return effort == Effort::best ? 6.0 : 17.0; 
 constexpr double kLeftAlways = 0.068, kLeftByEnergy = 0.42;
 /// Of shapes 1 - eta may be left in the mean: as much as the cv of lengths where that is kEven, and a little more than in
 /// proportion.
-constexpr double kEven = 0.078, kEvenPower = 1.3;
+constexpr double kEven = 0.078, kEvenUnaligned = 0.1, kEvenPower = 1.3;
 /// A part in a hundred of one takes so many parts in a hundred of its weight.
 constexpr double kResponse = 4.0, kMostAtOnce = 1.6;
 
@@ -71,7 +71,7 @@ EnergyWeights Balance::settled(EnergyWeights last) const {
 
 void Balance::adjust(EnergyWeights& last, const QuadRelocator::Indicators& left) const {
   if (left.spread > 0.0) {
-    const double lack = kEven * portable::pow(left.spread / kEven, kEvenPower);
+    const double even = aligned_ > 0.0 ? kEven : kEvenUnaligned, lack = even * portable::pow(left.spread / even, kEvenPower);
     last.obtuse = corrected(last.obtuse, left.lack / lack);
   }
   if (aligned_ == 1.0) last.alignment = corrected(last.alignment, left.misalignment / misalignment_);
