@@ -21,7 +21,7 @@ constexpr double kLeastAlignment = 0.05, kMostAlignment = 1.0;
 /// to the power 3/2. These are guesses that `adjust` makes good.
 constexpr double kLastLength = 0.4, kLastShape = 30.0, kLastAlignment = 1.6;
 /// When topology is settled, what is below this floor has to leave it. Alignment costs shapes: without it the floor is higher.
-constexpr double kFloorWeight = 1000.0, kFloor = 0.63, kFloorUnaligned = 0.65;
+constexpr double kFloorWeight = 1000.0, kFloor = 0.63, kFloorUnaligned = 0.656;
 /// Then lengths may be off by about 0.2 %.
 constexpr double kFine = 0.2;
 double last_obtuse(Effort effort) { return effort == Effort::best ? 6.0 : 17.0; }
