@@ -118,15 +118,7 @@ bool Trial::untangle() {
     relocator.set_delta(delta);
     relax(near_);
     relocator.set_delta(0.0);
-    bool good = true;
-    for (const VertexId v : near_) {
-      if (!find_star(mesh_, v, star_)) return false;
-      for (int k = 0; k < star_.count; ++k) {
-        relocator.refresh(star_.cell[k]);
-        good = good && relocator.energy(star_.cell[k]) < kInverted;
-      }
-    }
-    if (good) return true;
+    if (relocator.refresh_changed() < kInverted) return true;
   }
   return false;
 }

@@ -225,6 +225,18 @@ void QuadRelocator::refresh(CellId c) {
   energy_[c] = add_up(c);
 }
 
+double QuadRelocator::refresh_changed() {
+  double largest = 0.0;
+  const auto refresh_one = [&](CellId c) {
+    if (!mesh_.alive(c)) return;
+    refresh(c);
+    largest = std::max(largest, energy_[c]);
+  };
+  for (const CellId c : old_cells_) refresh_one(c);
+  for (CellId c = static_cast<CellId>(cell_stamp_.size()); c < mesh_.cell_count(); ++c) refresh_one(c);
+  return largest;
+}
+
 void QuadRelocator::forget_cell(CellId c) {
   touch_cell(c);
   energy_[c] = 0.0;

@@ -59,6 +59,8 @@ class QuadRelocator {
   /// without delta only after `refresh`.
   void set_delta(double delta) { weights_.delta = delta; }
   void refresh(CellId c);
+  /// Of all cells that have changed since begin(). \return the largest energy among them
+  double refresh_changed();
 
   /// From here on everything can be taken back, the mesh's points included: those are undone by their owner.
   void begin();
