@@ -97,12 +97,13 @@ PILLOWMESH_LANES Pair larger(const Pair& a, const Pair& b) { return Pair(wasm_f6
 PILLOWMESH_LANES Pair root(const Pair& a) { return Pair{std::sqrt(a[0]), std::sqrt(a[1])}; }
 PILLOWMESH_LANES Pair larger(const Pair& a, const Pair& b) { return Pair{larger(a[0], b[0]), larger(a[1], b[1])}; }
 #endif
-PILLOWMESH_LANES Four root(const Four& a) {
-  const Pair low = root(Pair{a[0], a[1]}), high = root(Pair{a[2], a[3]});
-  return Four{low[0], low[1], high[0], high[1]};
-}
+PILLOWMESH_LANES Four root(const Four& a) { return Four{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])}; }
+#if defined(__GNUC__) || defined(__clang__)
+PILLOWMESH_LANES Four larger(const Four& a, const Four& b) { return a > b ? a : b; }
+#else
 PILLOWMESH_LANES Four larger(const Four& a, const Four& b) {
   return Four{larger(a[0], b[0]), larger(a[1], b[1]), larger(a[2], b[2]), larger(a[3], b[3])};
 }
+#endif
 
 }  // namespace pillowmesh

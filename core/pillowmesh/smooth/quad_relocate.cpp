@@ -25,7 +25,7 @@ bool QuadRelocator::collect(VertexId v) {
     const VertexId o = around(mesh_, c, i + 2);
     wedges_.ox[k] = mesh_.points[o][0];
     wedges_.oy[k] = mesh_.points[o][1];
-    wedges_.jet[k] = size_[o];
+    if (shaped()) wedges_.jet[k] = size_[o];
     wedges_.far.set(2 * k, edges_[c][(i + 1) & 3]);
     wedges_.far.set(2 * k + 1, edges_[c][(i + 2) & 3]);
   }
