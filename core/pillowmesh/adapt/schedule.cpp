@@ -32,7 +32,7 @@ Budget budget_of(Effort effort, bool diced, int halvings) {
     case Effort::best: break;
   }
   if (coarse) return {15, 0.6, 0.05, kNoRows, 20, 0, 5, 40, 100};
-  if (diced) return {350, 0.4, 0.15, kNoRows, 2, 26, 5, 20, 60, kAnyCells, 20, 820};
+  if (diced) return {350, 0.4, 0.15, kNoRows, 2, 26, 5, 20, 48, kAnyCells, 20, 820};
   return {60, 0.6, 0.05, kNoRows, 20, 6, 5, 40, 100};
 }
 
