@@ -12,8 +12,9 @@ constexpr std::int64_t kMovesPerStep = 4000;
 /// For rows_every: rows come and go in cold passes only. Those that end on the boundary can be joined there at any time.
 constexpr int kNoRows = 1 << 20;
 
-/// Up to so many cells rows are cheap: the whole mesh is relocated for some.
-constexpr CellId kFewCells = 2000, kAnyCells = std::numeric_limits<CellId>::max();
+/// Up to so many cells rows are cheap: the whole mesh is relocated for some. Meshes with more are diced, and their coarse meshes
+/// had theirs.
+constexpr CellId kFewCells = 2000, kSomeCells = 10'000;
 
 /// Of a coarse mesh that will be diced, of one that was diced, and of one that layers have made, or that was given. Coarse
 /// meshes are not polished: the finer ones change shapes anyway.
@@ -27,12 +28,12 @@ Budget budget_of(Effort effort, bool diced, int halvings) {
       return {6, 0.3, 0.1, 3, 2, 0, 5, 4, 2, kFewCells};
     case Effort::normal:
       if (coarse) return {4, 0.4, 0.1, kNoRows, 4, 0, 5, 10, 20};
-      if (diced) return {28, 0.3, 0.15, kNoRows, 1, 2, 5, 0, 8};
+      if (diced) return {28, 0.3, 0.15, kNoRows, 1, 2, 5, 0, 8, kFewCells};
       return {30, 0.5, 0.06, 8, 4, 2, 5, 20, 20};
     case Effort::best: break;
   }
   if (coarse) return {15, 0.6, 0.05, kNoRows, 20, 0, 5, 40, 100};
-  if (diced) return {350, 0.4, 0.15, kNoRows, 2, 26, 5, 20, 48, kAnyCells, 20, 820};
+  if (diced) return {350, 0.4, 0.15, kNoRows, 2, 26, 5, 20, 48, kSomeCells, 20, 820};
   return {60, 0.6, 0.05, kNoRows, 20, 6, 5, 40, 100};
 }
 
@@ -127,6 +128,7 @@ void Schedule::next_pass() {
   if (pass_ == 0) {
     moves_before_ = trial_.moves;
     hot_moves_ = budget_.hot_moves * live_cells();
+    descent_.restart();
   }
   if (pass_ < budget_.hot_passes && cooled() > 1.0) pass_ = budget_.hot_passes;
   if (pass_ == budget_.hot_passes + budget_.cold_passes) {

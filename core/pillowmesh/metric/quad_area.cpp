@@ -34,7 +34,7 @@ class AreaIntegrator {
     std::array<bool, kChunk> convex;
     triangles_.clear();
     for (std::size_t i = 0; i < quads.size(); ++i) convex[i] = add(static_cast<Index>(i), quads[i]);
-    integrate(4 * quads.size());
+    integrate();
     for (std::size_t i = 0; i < quads.size(); ++i)
       for (int k = 0; k < 4; ++k) {
         const double* part = &area_[4 * i];
@@ -75,7 +75,7 @@ class AreaIntegrator {
     return {{{t.owner, {c, a, middle}}, {t.owner, {b, c, middle}}}};
   }
 
-  void integrate(std::size_t owners) {
+  void integrate() {
     area_.fill(0.0);
     std::array<double, 4 * kChunk> reference{};
     for (int depth = 0; !triangles_.empty(); ++depth) {

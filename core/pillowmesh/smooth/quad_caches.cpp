@@ -5,6 +5,20 @@
 
 namespace pillowmesh {
 
+namespace {
+
+/// The contents do not matter. With room for a few more: to double would be half of the memory of large meshes.
+template <class T>
+void renew(std::vector<T>& v, std::size_t size) {
+  if (size > v.capacity()) {
+    std::vector<T>().swap(v);
+    v.reserve(size + size / 16);
+  }
+  v.resize(size);
+}
+
+}  // namespace
+
 QuadRelocator::QuadRelocator(Mesh<2>& mesh, Background& background, const Weights& weights)
     : mesh_(mesh), background_(background) {
   measure_all(weights);
@@ -12,9 +26,9 @@ QuadRelocator::QuadRelocator(Mesh<2>& mesh, Background& background, const Weight
 
 void QuadRelocator::measure_all(const Weights& weights) {
   weights_ = weights;
-  size_.resize(mesh_.points.size());
+  renew(size_, mesh_.points.size());
   leaf_.resize(mesh_.points.size(), kNone);
-  edges_.resize(mesh_.cells.size());
+  renew(edges_, mesh_.cells.size());
   energy_.assign(mesh_.cells.size(), 0.0);
   begin();
   std::fill(cell_stamp_.begin(), cell_stamp_.end(), stamp_);  // nothing here is taken back

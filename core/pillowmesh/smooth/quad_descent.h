@@ -17,9 +17,11 @@ class QuadDescent {
   /// One iteration. No cell is ever inverted. \return by how much the energy fell; 0 when it cannot be lowered.
   /// Cost: derivatives at all vertices, and a few evaluations of the whole energy.
   double iterate();
-  /// Forgets where it was going.
+  /// Forgets where it was going, and holds no memory.
   void restart() {
-    direction_.clear();
+    residual_ = std::vector<Point<2>>();
+    direction_ = std::vector<Point<2>>();
+    start_ = std::vector<Point<2>>();
     last_step_ = 0.5;
   }
 
