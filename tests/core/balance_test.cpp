@@ -51,8 +51,9 @@ TEST_CASE("weights of the end come to rest where lengths, shapes and misalignmen
   CHECK(weights.obtuse == first.obtuse);
 }
 
-TEST_CASE("where shapes count, those below a floor have to leave it in the end, and the floor is higher without alignment") {
+TEST_CASE("shapes of best below a floor have to leave it in the end, and the floor is higher without alignment") {
   AdaptOptions options;
+  options.effort = Effort::best;
   const auto settled = [&](double misalignment) {
     Balance balance(options, false);
     balance.alignment_for(misalignment);
@@ -68,6 +69,8 @@ TEST_CASE("where shapes count, those below a floor have to leave it in the end, 
   // Coarse meshes are not polished: their shapes do not count.
   const EnergyWeights coarse = Balance(options, true).first();
   CHECK(Balance(options, true).settled(coarse).shape == 0.0);
+  options.effort = Effort::normal;
+  CHECK(settled(0.1).shape == Balance(options, false).last(0.1).shape);
 }
 
 TEST_CASE("a weight of alignment that was asked for is kept at the end") {

@@ -21,6 +21,7 @@ constexpr double kLeastAlignment = 0.05, kMostAlignment = 1.0;
 /// to the power 3/2. These are guesses that `adjust` makes good.
 constexpr double kLastLength = 0.4, kLastShape = 30.0, kLastAlignment = 1.6;
 /// When topology is settled, what is below this floor has to leave it. Alignment costs shapes: without it the floor is higher.
+/// That takes more iterations than other efforts have.
 constexpr double kFloorWeight = 1000.0, kFloor = 0.63, kFloorUnaligned = 0.656;
 /// Then lengths may be off by about 0.2 %.
 constexpr double kFine = 0.2;
@@ -62,7 +63,7 @@ EnergyWeights Balance::last(double energy) {
 
 EnergyWeights Balance::settled(EnergyWeights last) const {
   last.rough = kFine;
-  if (last.shape > 0.0) {
+  if (last.shape > 0.0 && options_.effort == Effort::best) {
     last.shape = kFloorWeight;
     last.shape_floor = aligned_ > 0.0 ? kFloor : kFloorUnaligned;
   }
