@@ -23,13 +23,13 @@ constexpr double kLastLength = 0.4, kLastShape = 30.0, kLastAlignment = 1.6;
 /// When topology is settled, what is below this floor has to leave it. Alignment costs shapes: without it the floor is higher.
 /// That takes more iterations than other efforts have.
 constexpr double kFloorWeight = 1000.0, kFloor = 0.63, kFloorUnaligned = 0.656;
-/// Then lengths may be off by about 0.2 %.
-constexpr double kFine = 0.2;
+/// At kinks lengths may be off by so many parts in a hundred: in the polish, and when topology is settled.
+constexpr double kRough = 4.0, kFine = 0.2;
 double last_obtuse(Effort effort) { return effort == Effort::best ? 6.0 : 17.0; }
 /// Of misalignment there may be left: this, and so much more for each unit of energy.
 constexpr double kLeftAlways = 0.068, kLeftByEnergy = 0.42;
 /// Of shapes 1 - eta may be left in the mean: as much as the cv of lengths where that is kEven, and a little more than in
-/// proportion.
+/// proportion. Without alignment more is given to shapes.
 constexpr double kEven = 0.078, kEvenUnaligned = 0.1, kEvenPower = 1.3;
 /// A part in a hundred of one takes so many parts in a hundred of its weight.
 constexpr double kResponse = 4.0, kMostAtOnce = 1.6;
@@ -58,7 +58,7 @@ EnergyWeights Balance::last(double energy) {
           .shape = kLastShape,
           .obtuse = last_obtuse(options_.effort) * energy * std::sqrt(energy),
           .length = kLastLength,
-          .rough = 4.0};
+          .rough = kRough};
 }
 
 EnergyWeights Balance::settled(EnergyWeights last) const {

@@ -15,7 +15,7 @@ class Outlook {
   Outlook(const Mesh<2>& mesh, const Trial& trial) : mesh_(mesh), trial_(trial) {}
 
   /// Lengths are looked up again from here on; else only where a change was kept.
-  void forget() { fans_ = std::vector<Fan>(mesh_.points.size()); }
+  void forget() { fans_.assign(mesh_.points.size(), Fan()); }
 
   [[nodiscard]] int valence(VertexId v) { return fan(v).cells; }
   /// By how much (valence - ideal)^2 grows when a vertex gets `change` cells more.

@@ -128,7 +128,7 @@ void Schedule::next_pass() {
   if (pass_ == 0) {
     moves_before_ = trial_.moves;
     hot_moves_ = budget_.hot_moves * live_cells();
-    descent_.restart();
+    descent_.restart();  // passes need the memory
   }
   if (pass_ < budget_.hot_passes && cooled() > 1.0) pass_ = budget_.hot_passes;
   if (pass_ == budget_.hot_passes + budget_.cold_passes) {

@@ -121,7 +121,7 @@ double QuadRelocator::sum_of_corners(const Point<2>& x, const Row& ex, const Row
 bool QuadRelocator::derivatives(VertexId v, Derivatives& sum) {
   if (!collect(v)) return false;
   leaf_at_ = leaf_[v];
-  for (int k = 0; k < spoke_count_; ++k) spokes_.hints[2 * k] = leaf_at_, spokes_.hints[2 * k + 1] = leaf_at_;
+  std::fill_n(spokes_.hints.begin(), 2 * spoke_count_, leaf_at_);
   const Point<2> x = mesh_.points[v];
   sum = {};
 #if defined(PILLOWMESH_WIDE)
