@@ -55,6 +55,31 @@ TEST_CASE("lookups are within the stated error of the metric where it is smooth"
   }
 }
 
+TEST_CASE("with its sizes halved a background has the bits of one that was made for them") {
+  const Point<2> low(-1, -1), high(1, 1);
+  for (const char* name : {"circle2d", "shock2d"}) {
+    INFO(name);
+    const auto field = formula(find_case(name)->formula);
+    Background halved(field.scaled(4.0), low, high), fresh(field, low, high);
+    std::mt19937 random(13);
+    const auto any = [&] { return Point<2>(2.0 * random() / 4294967296.0 - 1.0, 2.0 * random() / 4294967296.0 - 1.0); };
+    const auto jet_at = [](Background& background, const Point<2>& p) {
+      const SizeJet j = background.jet(p);
+      return std::array<double, 9>{j.H.a, j.H.b, j.H.c, j.dx.a, j.dx.b, j.dx.c, j.dy.a, j.dy.b, j.dy.c};
+    };
+    for (const double coarser : {2.0, 1.0}) {
+      for (int i = 0; i < 2000; ++i) jet_at(halved, any());
+      const std::size_t before = halved.leaves();
+      halved.halve_sizes(field.scaled(coarser));
+      CHECK(halved.leaves() == before);
+    }
+    for (int i = 0; i < 4000; ++i) {
+      const Point<2> p = any();
+      REQUIRE(jet_at(halved, p) == jet_at(fresh, p));
+    }
+  }
+}
+
 TEST_CASE("a lookup has the same bits whatever was asked before, with and without derivatives") {
   const auto field = formula(find_case("circle2d")->formula);
   const Point<2> low(-1, -1), high(1, 1);

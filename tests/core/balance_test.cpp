@@ -32,13 +32,13 @@ TEST_CASE("weights of the end come to rest where lengths, shapes and misalignmen
   balance.alignment_for(0.1);
   const EnergyWeights first = balance.last(0.1);
   CHECK(first.length > balance.first().length);
-  // Misalignment 0.068 + 0.42 * 0.1, a cv of 0.078 and as much lack of shape.
-  const QuadRelocator::Indicators even{0.078, 0.078, 0.11};
+  // Misalignment 0.066 + 0.42 * 0.1, a cv of 0.0795 and as much lack of shape.
+  const QuadRelocator::Indicators even{0.0795, 0.0795, 0.108};
   EnergyWeights weights = first;
   balance.adjust(weights, even);
   CHECK(weights.obtuse == Approx(first.obtuse));
   CHECK(weights.alignment == Approx(first.alignment));
-  balance.adjust(weights, {0.078, 0.09, 0.11});
+  balance.adjust(weights, {0.0795, 0.09, 0.108});
   CHECK(weights.obtuse > 1.2 * first.obtuse);
   CHECK(weights.alignment == Approx(first.alignment));
   weights = first;
@@ -64,7 +64,7 @@ TEST_CASE("shapes of best below a floor have to leave it in the end, and the flo
   options.align = 0.0;
   CHECK(aligned.shape > 10.0 * Balance(options, false).last(0.1).shape);
   CHECK(isotropic.shape_floor > aligned.shape_floor);
-  CHECK(settled(0.5).shape_floor == isotropic.shape_floor);
+  CHECK(settled(0.5).shape_floor > isotropic.shape_floor);
   CHECK(aligned.rough < EnergyWeights{}.rough);
   // Coarse meshes are not polished: their shapes do not count.
   const EnergyWeights coarse = Balance(options, true).first();

@@ -7,7 +7,9 @@
 #include <random>
 
 #include "../catch.h"
+#include "pillowmesh/adapt/random.h"
 #include "pillowmesh/metric/branchless.h"
+#include "pillowmesh/metric/field.h"
 
 namespace portable_math_test {
 
@@ -70,6 +72,50 @@ TEST_CASE("functions without branches agree with the system's within two units i
   CHECK(worst(branchless::tanh, tanh, -0.7, 0.7) <= 2);
   CHECK(worst(branchless::tanh, tanh, -25, 25) <= 2);
   CHECK(worst(branchless::tanh, tanh, -1e-300, 1e-300) <= 2);
+}
+
+TEST_CASE("sine and cosine without branches have the bits of those with them, or say that they may not") {
+  const std::uint64_t seed = 20'261'128;
+  CAPTURE(seed);
+  Random random(seed);
+  int same = 0, doubtful = 0;
+  const auto compare = [&](double x) {
+    const branchless::QuarterTurns turns = branchless::quarter_turns(x);
+    if (turns.doubtful) {
+      ++doubtful;
+      return;
+    }
+    const auto bits = [](double y) { return std::bit_cast<std::uint64_t>(y); };
+    same += bits(branchless::sin(turns)) == bits(portable::sin(x)) && bits(branchless::cos(turns)) == bits(portable::cos(x));
+  };
+  constexpr int n = 200'000;
+  for (int i = 0; i < n; ++i) compare(100.0 * (2.0 * random.uniform() - 1.0));
+  CHECK(doubtful < n / 500);
+  CHECK(same + doubtful == n);
+  same = doubtful = 0;
+  // Of every size, and around the multiples of a quarter of pi.
+  for (int i = 0; i < n; ++i) compare(portable::pow(2.0, 60.0 * random.uniform() - 40.0) * (2.0 * random.uniform() - 1.0));
+  for (int i = -500; i <= 500; ++i)
+    for (int j = -100; j <= 100; ++j) compare(i * 0.78539816339744831 + j * std::abs(j) * 1e-7);
+  CHECK(same + doubtful == n + 1001 * 201);
+  same = doubtful = 0;
+  for (const double x : {0.0, -0.0}) compare(x);
+  CHECK(same == 2);
+  for (const double x : {std::numeric_limits<double>::infinity(), std::nan("")}) compare(x);
+  CHECK(doubtful == 2);
+}
+
+TEST_CASE("formulas have sines and cosines one by one where they are doubtful among others") {
+  const MetricField<2> field = *MetricField<2>::from_formula("m11 = 3 + sin(x);\nm12 = 0;\nm22 = 3 + cos(y)");
+  std::vector<Point<2>> points;
+  for (int i = 0; i < 64; ++i) points.emplace_back(0.3 * i, i == 37 ? 1e9 : (i == 50 ? 1.5707963267948966 : -0.2 * i));
+  std::vector<SymTensor<2>> M(points.size());
+  field.evaluate(points, M);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    CAPTURE(i);
+    CHECK(M[i].m[0] == 3 + portable::sin(points[i][0]));
+    CHECK(M[i].m[2] == 3 + portable::cos(points[i][1]));
+  }
 }
 
 TEST_CASE("functions without branches treat the ends of their domains as IEEE 754 wants") {

@@ -298,6 +298,35 @@ TEST_CASE("moves lower the energy that they say they lower, and invert nothing")
   }
 }
 
+TEST_CASE("moves since the beginning are taken back to the bit, but for those that were for good") {
+  auto mesh = make_grid<2>({8, 8}, Point<2>(0, 0), Point<2>(1, 1));
+  shake(mesh, 0.3, 23);
+  auto metric = background(mesh, "h1 = 0.1 + 0.1*x; h2 = 0.08; theta = y");
+  QuadRelocator relocator(mesh, metric, {.alignment = 0.3});
+  const auto sweep = [&] {
+    double gain = 0.0;
+    for (VertexId v = 0; v < mesh.vertex_count(); ++v) gain += relocator.relocate(v);
+    return gain;
+  };
+  const double before = relocator.total_energy();
+  relocator.begin_for_good();
+  const double gain = sweep();
+  CHECK(gain > 0.01);
+  CHECK(relocator.change() == 0.0);
+  relocator.undo();
+  const double between = relocator.total_energy();
+  CHECK(between == Approx(before - gain));
+
+  relocator.begin();
+  const auto points = mesh.points;
+  const double more = sweep();
+  CHECK(more > 0.0);
+  CHECK(relocator.change() == Approx(-more));
+  relocator.undo();
+  mesh.points = points;
+  CHECK(relocator.total_energy() == between);
+}
+
 TEST_CASE("descent spreads rows over the whole mesh where sweeps hardly begin to") {
   // 60 columns of equal width for a size that grows threefold.
   const auto initial = make_grid<2>({60, 3}, Point<2>(0, 0), Point<2>(1, 0.05));

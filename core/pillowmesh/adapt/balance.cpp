@@ -20,17 +20,17 @@ constexpr double kLeastAlignment = 0.05, kMostAlignment = 1.0;
 /// Weights of the end; that of alignment is in proportion to the one before, that of obtuse corners to the energy of a cell
 /// to the power 3/2. These are guesses that `adjust` makes good.
 constexpr double kLastLength = 0.4, kLastShape = 30.0, kLastAlignment = 1.6;
-/// When topology is settled, what is below this floor has to leave it. Alignment costs shapes: without it the floor is higher.
-/// That takes more iterations than other efforts have.
-constexpr double kFloorWeight = 1000.0, kFloor = 0.63, kFloorUnaligned = 0.656;
+/// When topology is settled, what is below this floor has to leave it. Alignment costs shapes: without it the floor is higher, and
+/// between where there is nothing to align. That takes more iterations than other efforts have.
+constexpr double kFloorWeight = 1000.0, kFloor = 0.57, kFloorIsotropic = 0.62, kFloorUnaligned = 0.656;
 /// At kinks lengths may be off by so many parts in a hundred: in the polish, and when topology is settled.
 constexpr double kRough = 4.0, kFine = 0.2;
-double last_obtuse(Effort effort) { return effort == Effort::best ? 6.0 : 17.0; }
+double last_obtuse(Effort effort) { return effort == Effort::best ? 6.0 : 14.0; }
 /// Of misalignment there may be left: this, and so much more for each unit of energy.
-constexpr double kLeftAlways = 0.068, kLeftByEnergy = 0.42;
+constexpr double kLeftAlways = 0.066, kLeftByEnergy = 0.42;
 /// Of shapes 1 - eta may be left in the mean: as much as the cv of lengths where that is kEven, and a little more than in
 /// proportion. Without alignment more is given to shapes.
-constexpr double kEven = 0.078, kEvenUnaligned = 0.1, kEvenPower = 1.3;
+constexpr double kEven = 0.0795, kEvenUnaligned = 0.1, kEvenPower = 1.34;
 /// A part in a hundred of one takes so many parts in a hundred of its weight.
 constexpr double kResponse = 4.0, kMostAtOnce = 1.6;
 
@@ -65,14 +65,14 @@ EnergyWeights Balance::settled(EnergyWeights last) const {
   last.rough = kFine;
   if (last.shape > 0.0 && options_.effort == Effort::best) {
     last.shape = kFloorWeight;
-    last.shape_floor = aligned_ > 0.0 ? kFloor : kFloorUnaligned;
+    last.shape_floor = aligned_ > 0.0 ? kFloor : (options_.align > 0.0 ? kFloorIsotropic : kFloorUnaligned);
   }
   return last;
 }
 
 void Balance::adjust(EnergyWeights& last, const QuadRelocator::Indicators& left) const {
   if (left.spread > 0.0) {
-    const double even = aligned_ > 0.0 ? kEven : kEvenUnaligned, lack = even * portable::pow(left.spread / even, kEvenPower);
+    const double even = options_.align > 0.0 ? kEven : kEvenUnaligned, lack = even * portable::pow(left.spread / even, kEvenPower);
     last.obtuse = corrected(last.obtuse, left.lack / lack);
   }
   if (aligned_ == 1.0) last.alignment = corrected(last.alignment, left.misalignment / misalignment_);

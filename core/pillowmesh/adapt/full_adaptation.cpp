@@ -32,11 +32,27 @@ void FullAdaptation::begin(const Mesh<2>& mesh) {
   diced_ = 10 * mesh.cell_count() < 11 * cells_before_layers_;  // a few layers more only have to be mended
 }
 
+/// Lookups of the target. A mesh that was diced asks for much of what the coarse one has asked for.
+Background& FullAdaptation::look_up(const Mesh<2>& mesh, const MetricField<2>& target) {
+  Point<2> low = mesh.points[0], high = low;
+  for (const Point<2>& p : mesh.points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  if (background_ && background_->is_for(low, high) && background_coarser_ == 2 * coarser()) {
+    background_->halve_sizes(target);
+  } else if (!background_ || !background_->is_for(low, high) || background_coarser_ != coarser()) {
+    background_ = std::make_unique<Background>(target, low, high, BackgroundOptions{.tolerance = 5e-3, .smallest = 0.5});
+  }
+  background_coarser_ = coarser();
+  return *background_;
+}
+
 FullAdaptation::Next FullAdaptation::step(Mesh<2>& mesh, const MetricField<2>& field, const MetricField<2>& target,
                                           int iteration) {
   if (!schedule_)
     schedule_ =
-        std::make_unique<Schedule>(mesh, target, options_, diced_, halvings_, recorder_, operations_, iteration);
+        std::make_unique<Schedule>(mesh, look_up(mesh, target), options_, diced_, halvings_, recorder_, operations_, iteration);
   const bool more = schedule_->step();
   activity_ = schedule_->activity();
   if (more) return Next::step;

@@ -45,6 +45,7 @@ class FullAdaptation {
  private:
   Next halve(Mesh<2>& mesh, const MetricField<2>& field, int iteration);
   Next insert_layers(const Mesh<2>& mesh);
+  Background& look_up(const Mesh<2>& mesh, const MetricField<2>& target);
 
   const AdaptOptions& options_;
   Recorder<2>& recorder_;
@@ -53,6 +54,8 @@ class FullAdaptation {
   bool diced_ = false;  ///< the mesh was made from one that had been adapted: it only has to be mended
   CellId cells_before_layers_ = 0;
   int mended_ = 0;  ///< how often edges had become too long in the end
+  std::unique_ptr<Background> background_;
+  int background_coarser_ = 1;  ///< whose sizes it has
   std::unique_ptr<Schedule> schedule_;
   std::string_view activity_;
   Status outcome_;

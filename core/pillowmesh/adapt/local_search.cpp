@@ -48,6 +48,14 @@ void LocalSearch::begin_pass(double temperature) {
   next_ = 0;
   kept_ = 0;
   outlook_.forget();
+  if (temperature > 0.0) refusals_.make_room(mesh_.cell_count());
+}
+
+void LocalSearch::release() {
+  outlook_.release();
+  refusals_.release();
+  std::vector<Index>().swap(looked_);
+  std::vector<std::uint8_t>().swap(marks_);
 }
 
 bool LocalSearch::interesting(CellId c) {
@@ -65,9 +73,16 @@ double LocalSearch::allowance(double bonus) {
 bool LocalSearch::hopeless(double odds) const { return odds < (temperature_ > 0.0 ? kLeastOdds : kLeastOddsCold); }
 
 bool LocalSearch::attempt(Operator op, double allowed) {
-  if (!trial_.attempt(op, allowed)) return false;
-  ++kept_;
-  return true;
+  // Cold passes look at each change once.
+  const bool hot = temperature_ > 0.0;
+  const Refusals::Key key = hot ? Refusals::key(op, trial_.cavity) : 0;
+  if (hot && refusals_.expected(key, allowed)) return false;
+  if (trial_.attempt(op, allowed)) {
+    ++kept_;
+    return true;
+  }
+  if (hot) refusals_.remember(key, trial_.refused_growth);
+  return false;
 }
 
 bool LocalSearch::continue_pass(std::int64_t moves) {

@@ -3,6 +3,7 @@
 
 #include "pillowmesh/adapt/outlook.h"
 #include "pillowmesh/adapt/random.h"
+#include "pillowmesh/adapt/refusals.h"
 #include "pillowmesh/adapt/trial.h"
 #include "pillowmesh/mesh/chord.h"
 
@@ -23,6 +24,8 @@ class LocalSearch {
   bool continue_pass(std::int64_t moves);
   /// Changes kept since begin_pass.
   [[nodiscard]] std::int64_t kept() const { return kept_; }
+  /// No pass comes any more: holds no memory for each cell.
+  void release();
 
   /// Tries to collapse chords where there is a row too many, and to split those where there is one too few. Chords once
   /// each. \return the changes kept. Cost: all chords are walked.
@@ -46,6 +49,7 @@ class LocalSearch {
   Mesh<2>& mesh_;
   Trial& trial_;
   Outlook outlook_;
+  Refusals refusals_;
   Random random_;
   double temperature_ = 0.0;
   CellId next_ = 0;

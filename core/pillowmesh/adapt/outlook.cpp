@@ -40,8 +40,8 @@ const Outlook::Fan& Outlook::fan(VertexId v) {
   if (f.seen == trial_.changed(v)) return f;
   f = {trial_.changed(v), 0, 0, 0.0};
   if (!find_star(mesh_, v, star_)) return f;
-  f.cells = star_.count;
-  f.spokes = star_.count + (star_.closed ? 0 : 1);
+  f.cells = static_cast<std::uint8_t>(star_.count);
+  f.spokes = static_cast<std::uint8_t>(star_.count + (star_.closed ? 0 : 1));
   for (int k = 0; k < star_.count; ++k) f.sum += trial_.relocator.edge(star_.cell[k], star_.place[k]).l;
   if (!star_.closed) f.sum += trial_.relocator.edge(star_.cell[star_.count - 1], star_.place[star_.count - 1] + 3).l;
   return f;

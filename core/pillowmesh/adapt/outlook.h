@@ -16,6 +16,8 @@ class Outlook {
 
   /// Lengths are looked up again from here on; else only where a change was kept.
   void forget() { fans_.assign(mesh_.points.size(), Fan()); }
+  /// The same, and holds no memory.
+  void release() { std::vector<Fan>().swap(fans_); }
 
   [[nodiscard]] int valence(VertexId v) { return fan(v).cells; }
   /// By how much (valence - ideal)^2 grows when a vertex gets `change` cells more.
@@ -39,7 +41,7 @@ class Outlook {
  private:
   struct Fan {
     Index seen = kNone;
-    int cells = 0, spokes = 0;
+    std::uint8_t cells = 0, spokes = 0;
     double sum = 0.0;  ///< of the lengths of the spokes
   };
   const Fan& fan(VertexId v);

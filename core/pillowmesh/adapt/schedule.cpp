@@ -33,24 +33,15 @@ Budget budget_of(Effort effort, bool diced, int halvings) {
     case Effort::best: break;
   }
   if (coarse) return {15, 0.6, 0.05, kNoRows, 20, 0, 5, 40, 100};
-  if (diced) return {350, 0.4, 0.15, kNoRows, 2, 26, 5, 20, 48, kSomeCells, 20, 820};
+  if (diced) return {900, 0.4, 0.15, kNoRows, 2, 26, 5, 20, 48, kSomeCells, 20, 635};
   return {60, 0.6, 0.05, kNoRows, 20, 6, 5, 40, 100};
 }
 
 constexpr int kPassesToBalance = 5, kIterationsToBalance = 12;
 
-Background background_of(const Mesh<2>& mesh, const MetricField<2>& field) {
-  Point<2> low = mesh.points[0], high = low;
-  for (const Point<2>& p : mesh.points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return {field, low, high, {.tolerance = 5e-3, .smallest = 0.5}};
-}
-
 }  // namespace
 
-Schedule::Schedule(Mesh<2>& mesh, const MetricField<2>& field, const AdaptOptions& options, bool diced, int halvings,
+Schedule::Schedule(Mesh<2>& mesh, Background& background, const AdaptOptions& options, bool diced, int halvings,
                    Recorder<2>& recorder, std::map<std::string, std::int64_t>& operations, int iteration)
     : mesh_(mesh),
       options_(options),
@@ -58,9 +49,8 @@ Schedule::Schedule(Mesh<2>& mesh, const MetricField<2>& field, const AdaptOption
       operations_(operations),
       iteration_(iteration),
       budget_(budget_of(options.effort, diced, halvings)),
-      background_(background_of(mesh, field)),
       balance_(options, halvings > 0),
-      trial_(mesh, background_, balance_.first()),
+      trial_(mesh, background, balance_.first()),
       search_(mesh, trial_, options.seed),
       descent_(mesh, trial_.relocator) {
   if (options.record)
@@ -162,6 +152,8 @@ void Schedule::end_polish_round() {
   if (polish_ == budget_.polish_rounds || (polish_ > 0 && search_.kept() == 0)) {
     stage_ = Stage::settle;
     sweeps_ = 0;
+    search_.release();
+    trial_.release();
     trial_.relocator.measure_all(balance_.settled(trial_.relocator.weights()));
     descent_.restart();
     // Single vertices first: a few that are pushed hard would hold up all.

@@ -33,7 +33,7 @@ class Schedule {
  public:
   /// All must outlive it. Cost: linear.
   /// \param diced the mesh was made by dicing an adapted one  \param halvings how often it will be diced afterwards
-  Schedule(Mesh<2>& mesh, const MetricField<2>& field, const AdaptOptions& options, bool diced, int halvings, Recorder<2>& recorder,
+  Schedule(Mesh<2>& mesh, Background& background, const AdaptOptions& options, bool diced, int halvings, Recorder<2>& recorder,
            std::map<std::string, std::int64_t>& operations, int iteration);
 
   /// A few thousand vertex moves. \return false when all is done.
@@ -68,7 +68,6 @@ class Schedule {
   std::map<std::string, std::int64_t>& operations_;
   int iteration_;
   Budget budget_;
-  Background background_;
   Balance balance_;
   Trial trial_;
   LocalSearch search_;

@@ -1,6 +1,7 @@
 #include "pillowmesh/adapt/trial.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "pillowmesh/coarsen/diagonal_collapse.h"
@@ -58,6 +59,11 @@ Trial::Trial(Mesh<2>& mesh, Background& background, const QuadRelocator::Weights
 void Trial::touch_all() {
   ++clock_;
   changed_.assign(mesh_.points.size(), clock_);
+}
+
+void Trial::release() {
+  for (std::vector<Index>* v : {&stamp_, &changed_}) std::vector<Index>().swap(*v);
+  std::vector<std::int8_t>().swap(ideal_);
 }
 
 bool Trial::remove_doublets() {
@@ -171,23 +177,30 @@ bool Trial::attempt(Operator op, double threshold) {
     relocator.undo();
     return false;
   };
+  // What a sweep gains, times its hope, is all that may still come.
+  double change = 0.0;
+  const auto hopeless = [&](double gain, double hope) {
+    change -= gain;
+    refused_growth = change - hope * gain;
+    return refused_growth > threshold;
+  };
   std::int64_t illegal = 0;
+  refused_growth = -std::numeric_limits<double>::infinity();  // what is around may come to allow it
   if (!change_topology()) return refuse(illegal);
   ++count.tried;
+  refused_growth = std::numeric_limits<double>::infinity();
   if (!measure() && !untangle()) return refuse(count.tangled);
-  double change = relocator.change();
+  change = relocator.change();
   for (int k = 0; k < patient.near_sweeps; ++k) {
     const double gain = relax(near_);
-    change -= gain;
-    if (change - patient.near_hope * gain > threshold) return refuse(count.hopeless);
+    if (hopeless(gain, patient.near_hope)) return refuse(count.hopeless);
     if (gain < 1e-3 || (change < threshold && k >= 1)) break;
   }
   collect_far(patient.rings);
   for (int k = 0; k < patient.far_sweeps && change > threshold; ++k) {
-    const double gain = relax(far_);
-    change -= gain;
-    if (change - patient.far_hope * gain > threshold) return refuse(count.hopeless);
+    if (hopeless(relax(far_), patient.far_hope)) return refuse(count.hopeless);
   }
+  refused_growth = change;
   if (change > threshold) return refuse(count.hopeless);
   keep(op, far_);
   return true;
@@ -234,8 +247,8 @@ void Trial::begin_sweep() {
 
 /// By cells, since what belongs to neighbours lies together there: after dicing, vertices with neighbouring numbers do not.
 double Trial::sweep(CellId first, CellId last) {
-  journal_.begin();
-  relocator.begin();
+  relocator.begin_for_good();
+  relocator.journal = nullptr;
   // A displacement of the whole mesh is little at each vertex: here small gains count.
   const double relaxation = std::exchange(relocator.relaxation, 1.5), rest = std::exchange(relocator.rest, 1e-9);
   double gain = 0.0;
@@ -246,8 +259,7 @@ double Trial::sweep(CellId first, CellId last) {
   }
   relocator.relaxation = relaxation;
   relocator.rest = rest;
-  journal_.begin();
-  relocator.begin();
+  relocator.journal = &journal_;
   return gain;
 }
 

@@ -50,6 +50,8 @@ class Trial {
   [[nodiscard]] Index changed(VertexId v) const { return changed_[v]; }
   Index tick() { return ++clock_; }
   void touch_all();
+  /// No change comes any more, sweeps alone: holds no memory for changes.
+  void release();
 
   Cavity cavity;
   QuadRelocator relocator;
@@ -60,6 +62,9 @@ class Trial {
     std::int64_t tried = 0, hopeless = 0, tangled = 0, kept = 0;
   };
   std::array<Count, kOperators> counts{};
+  /// By how much the change that `attempt` refused last would have raised the energy at least: infinite where it could not be
+  /// untangled, -infinite where it was illegal, and nothing is known.
+  double refused_growth = 0.0;
   std::int64_t moves = 0;  ///< vertices that relocation was tried at
 
  private:

@@ -44,7 +44,7 @@ SizeTensor size_tensor(const SymTensor<2>& M) {
 
 Background::Background(MetricField<2> field, const Point<2>& low, const Point<2>& high,
                        const BackgroundOptions& options)
-    : field_(std::move(field)), options_(options), low_(low), cell_((high - low) / kRoots) {
+    : field_(std::move(field)), options_(options), low_(low), high_(high), cell_((high - low) / kRoots) {
   for (int depth = 0; depth <= kDepth; ++depth) {
     const double twice = 2.0 * static_cast<double>(1 << depth);
     scale_[depth] = {twice / cell_[0], twice / cell_[1]};
@@ -71,7 +71,7 @@ Background::Place Background::descend(const Point<2>& p, Index& leaf) {
   std::int64_t column = i, row = j;  // of the square among those of its level: where it is must not depend on p's rounding
   for (int depth = 0;; ++depth) {
     if (nodes_[n].child < 0) {
-      if (nodes_[n].rough == 0 || depth == kDepth) break;
+      if (nodes_[n].rough != 1 || depth == kDepth) break;
       const Point<2>& s = scale_[depth];
       divide(n, low_[0] + static_cast<double>(2 * column + 1) / s[0], low_[1] + static_cast<double>(2 * row + 1) / s[1], depth + 1);
     }
@@ -144,13 +144,25 @@ void Background::make_children(Index first, double x, double y, int depth) {
     }
     // The children's side is half_x.
     const bool good = worst <= options_.tolerance;
-    const bool rough = !good && std::max(half_x, half_y) > options_.smallest * size;
-    if (!good && !rough) make_bilinear(leaf.k);
-    nodes_[first + k] = {~static_cast<Index>(leaves_.size()), static_cast<std::uint8_t>(rough)};
-    // Grown by a quarter: this is a large part of the memory of full adaptation.
-    if (leaves_.size() == leaves_.capacity()) leaves_.reserve(leaves_.size() + std::max<std::size_t>(leaves_.size() / 4, 64));
+    std::uint8_t rough = 0;
+    if (!good) {
+      constexpr std::uint8_t never = 64;
+      for (rough = 1; rough < never && !(std::max(half_x, half_y) > options_.smallest * size); ++rough) size *= 0.5;
+    }
+    if (rough > 1) make_bilinear(leaf.k);
+    nodes_[first + k] = {~static_cast<Index>(leaves_.size()), rough};
     leaves_.push_back(leaf);
   }
+}
+
+void Background::halve_sizes(MetricField<2> field) {
+  field_ = std::move(field);
+  for (Leaf& leaf : leaves_)
+    for (auto& k : leaf.k)
+      for (float& coefficient : k) coefficient *= 0.5f;
+  for (Node& node : nodes_)
+    if (node.rough > 1) --node.rough;
+  last_ = kNone;
 }
 
 SizeTensor Background::evaluate(const Place& at) {

@@ -49,6 +49,11 @@ class Background {
   SizeTensor at(const Point<2>& p, Index& hint) { return evaluate(locate(p, hint)); }
   SizeJet jet(const Point<2>& p, Index& hint) { return evaluate_jet(locate(p, hint)); }
 
+  /// From here on for `field`, which asks for sizes half as large everywhere, as if it had been made for that: nothing is
+  /// computed again. Hints from before are void. Cost: the leaves.
+  void halve_sizes(MetricField<2> field);
+  [[nodiscard]] bool is_for(const Point<2>& low, const Point<2>& high) const { return low == low_ && high == high_; }
+
   [[nodiscard]] std::size_t leaves() const { return leaves_.size(); }
 
  private:
@@ -63,7 +68,7 @@ class Background {
   /// child >= 0: the first of four nodes; else leaf ~child, which may have to be divided.
   struct Node {
     Index child;
-    std::uint8_t rough;
+    std::uint8_t rough;  ///< 0: good; 1: to be divided; n: to be divided when sizes are halved for the (n - 1)th time
   };
   struct Place {
     const Leaf* leaf;
@@ -96,7 +101,7 @@ class Background {
 
   MetricField<2> field_;
   BackgroundOptions options_;
-  Point<2> low_, cell_;
+  Point<2> low_, high_, cell_;
   std::array<Point<2>, kDepth + 1> scale_;  ///< of leaves by their depth: u = (p[0] - x) scale[0]
   std::vector<Node> nodes_;
   std::vector<Leaf> leaves_;

@@ -1,5 +1,5 @@
-// Logarithm and hyperbolic tangent without branches and tables: loops over many numbers are vectorised, where musl's
-// functions go one by one. Only + - * / and moves of bits, so that a result is the same in every build.
+// Logarithm, hyperbolic tangent, sine and cosine without branches and tables: loops over many numbers are vectorised, where
+// musl's functions go one by one. Only + - * / and moves of bits, so that a result is the same in every build.
 //
 // After FreeBSD's msun: Copyright (C) 1993 by Sun Microsystems, Inc. All rights reserved. Permission to use, copy, modify,
 // and distribute this software is freely granted, provided that this notice is preserved.
@@ -64,6 +64,56 @@ PILLOWMESH_VECTORISED double tanh(double x) {
   const double signed_far = x < 0.0 ? -far : far;
   const double y = a < 0.625 ? near : signed_far;
   return x == x ? y : x;
+}
+
+/// x = n pi / 2 + y + rest, n the nearest whole number.
+struct QuarterTurns {
+  double y, rest;
+  std::uint64_t n;  ///< its last bits
+  bool whole;       ///< n is not 0
+  bool doubtful;    ///< n might be another, or more digits of pi / 2 may be needed
+};
+/// As musl's functions do it, which sort x by size first. [FreeBSD's msun, e_rem_pio2.c]
+inline QuarterTurns quarter_turns(double x) {
+  constexpr double two_over_pi = 6.36619772367581382433e-01, half_pi_high = 1.57079632673412561417e+00,
+                   half_pi_low = 6.07710050650619224932e-11, quarter_pi = 0x1.921fb54442d18p-1, to_whole = 0x1.8p52;
+  const double shifted = x * two_over_pi + to_whole, n = shifted - to_whole;
+  const double r = x - n * half_pi_high, w = n * half_pi_low, y = r - w, size = x < 0.0 ? -x : x, off = y < 0.0 ? -y : y;
+  const bool whole = n != 0.0, cancelled = off < size * 0x1p-16, tie = !(off < quarter_pi - 4e-5), large = !(size < 0x1p20);
+  return {y, (r - y) - w, __builtin_bit_cast(std::uint64_t, shifted), whole, ((whole & cancelled) | tie | large) != 0};
+}
+
+/// [FreeBSD's msun, k_sin.c]
+inline double sine_of(const QuarterTurns& t) {
+  const double x = t.y, z = x * x, w = z * z, v = z * x;
+  const double r = 8.33333333332248946124e-03 + z * (-1.98412698298579493134e-04 + z * 2.75573137070700676789e-06) +
+                   z * w * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10);
+  constexpr double third = -1.66666666666666324348e-01;
+  const double alone = x + v * (third + z * r), with_rest = x - ((z * (0.5 * t.rest - v * r) - t.rest) - v * third);
+  const double y = t.whole ? with_rest : alone;
+  return x == 0.0 ? x : y;
+}
+/// [FreeBSD's msun, k_cos.c]
+inline double cosine_of(const QuarterTurns& t) {
+  const double x = t.y, z = x * x, w = z * z;
+  const double r = z * (4.16666666666666019037e-02 + z * (-1.38888888888741095749e-03 + z * 2.48015872894767294178e-05)) +
+                   w * w * (-2.75573143513906633035e-07 + z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11));
+  const double half = 0.5 * z, one = 1.0 - half;
+  return one + (((1.0 - one) - half) + (z * r - x * t.rest));
+}
+/// -x where the second bit is set.
+inline double signed_by(std::uint64_t bits, double x) {
+  return __builtin_bit_cast(double, __builtin_bit_cast(std::uint64_t, x) ^ ((bits & 2) << 62));
+}
+
+/// Bit for bit what musl's functions give where t, the quarter turns of the argument, is not doubtful.
+inline double sin(const QuarterTurns& t) {
+  const double s = sine_of(t), c = cosine_of(t);
+  return signed_by(t.n, (t.n & 1) != 0 ? c : s);
+}
+inline double cos(const QuarterTurns& t) {
+  const double s = sine_of(t), c = cosine_of(t);
+  return signed_by(t.n + 1, (t.n & 1) != 0 ? s : c);
 }
 
 }  // namespace pillowmesh::branchless

@@ -38,6 +38,7 @@ class Program {
 
  private:
   friend class ProgramBuilder;
+  void run_widest(const Lanes* coordinates, int count, std::span<Lanes> results) const;
   void run_wide(const Lanes* coordinates, int count, std::span<Lanes> results) const;
   void run_code(const Lanes* coordinates, int count, std::span<Lanes> results) const;
   static constexpr int kMaxRegisters = 128;

@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 
 #include "pillowmesh/mesh/wide.h"
@@ -25,6 +26,33 @@ PILLOWMESH_LANES void map(double* __restrict out, const double* a, const double*
   }
 }
 
+#if defined(__wasm__)
+template <class F, class Exact>
+void map_turns(double* out, const double* a, int n, F, Exact exact) {
+  map(out, a, n, exact);  // two numbers at a time are not worth the size of the loops
+}
+#else
+/// f of quarter turns; where those are doubtful `exact`, of the number.
+template <class F, class Exact>
+PILLOWMESH_LANES void map_turns(double* out, const double* a, int n, F f, Exact exact) {
+  for (int i = 0; i < n; i += kGroup) {
+    std::array<double, kGroup> x, y, doubt;
+    for (int k = 0; k < kGroup; ++k) {
+      x[k] = a[i + k];
+      const branchless::QuarterTurns t = branchless::quarter_turns(x[k]);
+      y[k] = f(t);
+      doubt[k] = t.doubtful ? 1.0 : 0.0;
+    }
+    for (int k = 0; k < kGroup; ++k) out[i + k] = y[k];
+    double doubts = 0.0;
+    for (int k = 0; k < kGroup; ++k) doubts += doubt[k];
+    if (doubts == 0.0) continue;
+    for (int k = 0; k < kGroup; ++k)
+      if (doubt[k] != 0.0) out[i + k] = exact(x[k]);
+  }
+}
+#endif
+
 int count_true(const double* a, int n) {
   int count = 0;
   for (int i = 0; i < n; ++i) count += a[i] != 0.0 ? 1 : 0;
@@ -35,6 +63,7 @@ int count_true(const double* a, int n) {
 
 void Program::run(const Lanes* coordinates, int count, std::span<Lanes> results) const {
 #if defined(PILLOWMESH_WIDE)
+  if (kWidest) return run_widest(coordinates, count, results);
   if (kWide) return run_wide(coordinates, count, results);
 #endif
   run_code(coordinates, count, results);
@@ -44,10 +73,13 @@ void Program::run(const Lanes* coordinates, int count, std::span<Lanes> results)
 PILLOWMESH_WIDE void Program::run_wide(const Lanes* coordinates, int count, std::span<Lanes> results) const {
   run_code(coordinates, count, results);
 }
+PILLOWMESH_WIDEST void Program::run_widest(const Lanes* coordinates, int count, std::span<Lanes> results) const {
+  run_code(coordinates, count, results);
+}
 #endif
 
 PILLOWMESH_LANES void Program::run_code(const Lanes* coordinates, int count, std::span<Lanes> results) const {
-  alignas(16) double registers[kMaxRegisters * kLanes];
+  alignas(64) double registers[kMaxRegisters * kLanes];
   const int n = (count + kGroup - 1) / kGroup * kGroup;
   for (int axis = 0; axis < axes_; ++axis) {
     double* r = registers + axis * kLanes;
@@ -95,10 +127,10 @@ PILLOWMESH_LANES void Program::run_code(const Lanes* coordinates, int count, std
         map(out, a, n, branchless::log);
         break;
       case Op::sine:
-        map(out, a, n, portable::sin);
+        map_turns(out, a, n, [](const branchless::QuarterTurns& t) { return branchless::sin(t); }, portable::sin);
         break;
       case Op::cosine:
-        map(out, a, n, portable::cos);
+        map_turns(out, a, n, [](const branchless::QuarterTurns& t) { return branchless::cos(t); }, portable::cos);
         break;
       case Op::tangent:
         map(out, a, n, portable::tan);

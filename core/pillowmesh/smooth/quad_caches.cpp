@@ -30,8 +30,7 @@ void QuadRelocator::measure_all(const Weights& weights) {
   leaf_.resize(mesh_.points.size(), kNone);
   renew(edges_, mesh_.cells.size());
   energy_.assign(mesh_.cells.size(), 0.0);
-  begin();
-  std::fill(cell_stamp_.begin(), cell_stamp_.end(), stamp_);  // nothing here is taken back
+  begin_for_good();
   for (VertexId v = 0; v < mesh_.vertex_count(); ++v)
     if (mesh_.vertex_cell[v] != kNone) size_[v] = jet_of(background_.jet(mesh_.points[v], leaf_[v]));
   for (CellId c = 0; c < mesh_.cell_count(); ++c)
@@ -89,14 +88,19 @@ QuadRelocator::Indicators QuadRelocator::indicators() const {
 
 void QuadRelocator::set_alignment(double alignment) {
   weights_.alignment = alignment;
-  begin();
-  std::fill(cell_stamp_.begin(), cell_stamp_.end(), stamp_);  // nothing here is taken back
+  begin_for_good();
   for (CellId c = 0; c < mesh_.cell_count(); ++c)
     if (mesh_.alive(c)) refresh(c);
   begin();
 }
 
+void QuadRelocator::begin_for_good() {
+  begin();
+  for_good_ = true;
+}
+
 void QuadRelocator::begin() {
+  for_good_ = false;
   cell_stamp_.resize(mesh_.cells.size(), 0);
   vertex_stamp_.resize(mesh_.points.size(), 0);
   ++stamp_;
@@ -116,7 +120,7 @@ void QuadRelocator::undo() {
 }
 
 void QuadRelocator::touch_cell(CellId c) {
-  if (c >= static_cast<CellId>(cell_stamp_.size()) || cell_stamp_[c] == stamp_) return;
+  if (for_good_ || c >= static_cast<CellId>(cell_stamp_.size()) || cell_stamp_[c] == stamp_) return;
   cell_stamp_[c] = stamp_;
   old_cells_.push_back(c);
   old_edges_.push_back(edges_[c]);
@@ -124,7 +128,7 @@ void QuadRelocator::touch_cell(CellId c) {
 }
 
 void QuadRelocator::touch_vertex(VertexId v) {
-  if (v >= static_cast<VertexId>(vertex_stamp_.size()) || vertex_stamp_[v] == stamp_) return;
+  if (for_good_ || v >= static_cast<VertexId>(vertex_stamp_.size()) || vertex_stamp_[v] == stamp_) return;
   vertex_stamp_[v] = stamp_;
   old_vertices_.push_back(v);
   old_sizes_.push_back(size_[v]);

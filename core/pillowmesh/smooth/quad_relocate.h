@@ -64,6 +64,8 @@ class QuadRelocator {
 
   /// From here on everything can be taken back, the mesh's points included: those are undone by their owner.
   void begin();
+  /// The same, but what follows, until the next begin(), cannot be taken back: no copies are kept.
+  void begin_for_good();
   void undo();
   /// By how much the energy has grown since begin().
   [[nodiscard]] double change() const;
@@ -185,6 +187,7 @@ class QuadRelocator {
   Jet size_at_{};
   Index leaf_at_ = kNone;
 
+  bool for_good_ = false;
   Index stamp_ = 0;
   std::vector<Index> cell_stamp_, vertex_stamp_;
   std::vector<CellId> old_cells_;
