@@ -33,7 +33,7 @@ Budget budget_of(Effort effort, bool diced, int halvings) {
     case Effort::best: break;
   }
   if (coarse) return {15, 0.6, 0.05, kNoRows, 20, 0, 5, 40, 100};
-  if (diced) return {900, 0.4, 0.15, kNoRows, 2, 26, 5, 20, 48, kSomeCells, 20, 635};
+  if (diced) return {500, 0.4, 0.15, kNoRows, 2, 26, 5, 20, 48, kSomeCells, 20, 635};
   return {60, 0.6, 0.05, kNoRows, 20, 6, 5, 40, 100};
 }
 
