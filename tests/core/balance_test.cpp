@@ -45,6 +45,16 @@ TEST_CASE("weights of the end come to rest where lengths, shapes and misalignmen
   balance.adjust(weights, {0.09, 0.08, 0.1});
   CHECK(weights.obtuse < 0.8 * first.obtuse);
   CHECK(weights.alignment < 0.8 * first.alignment);
+  // Shapes count as much where there is nothing to align, and more where alignment was not asked for.
+  for (const double align : {1.0, 0.0}) {
+    options.align = align;
+    weights = first;
+    Balance(options, false).adjust(weights, {0.0795, 0.0795, 0.0});
+    if (align > 0.0)
+      CHECK(weights.obtuse == Approx(first.obtuse));
+    else
+      CHECK(weights.obtuse > 1.1 * first.obtuse);
+  }
   // A mesh that has come out exactly is left alone.
   weights = first;
   balance.adjust(weights, {0.0, 0.0, 0.11});

@@ -1,10 +1,14 @@
 #include "pillowmesh/adapt/refusals.h"
 
+#include <algorithm>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "../catch.h"
 #include "meshes.h"
+#include "pillowmesh/adapt/local_search.h"
+#include "pillowmesh/mesh/compact.h"
 #include "pillowmesh/mesh/validate.h"
 #include "pillowmesh/reconnect/rotate.h"
 
@@ -105,6 +109,34 @@ TEST_CASE("what is expected to be refused hardly ever would be kept, while the m
   CHECK(expected > tried / 5);
   CHECK(kept > 100);
   CHECK(kept_all_the_same < kept / 20);
+}
+
+TEST_CASE("hot passes that remember refusals try less than one that begins on the same mesh") {
+  auto mesh = make_grid<2>({14, 14}, Point<2>(0, 0), Point<2>(1, 1));
+  const auto field = *MetricField<2>::from_formula("h1 = 0.05 + 0.08*x; h2 = 0.06 + 0.05*y; theta = y");
+  const auto tries_of_a_pass = [](Trial& trial, LocalSearch& search) {
+    const auto tried = [&] {
+      std::int64_t sum = 0;
+      for (const Trial::Count& count : trial.counts) sum += count.tried;
+      return sum;
+    };
+    const std::int64_t before = tried();
+    search.begin_pass(0.1);
+    while (search.continue_pass(1000)) {
+    }
+    return tried() - before;
+  };
+  Background metric(field, Point<2>(0, 0), Point<2>(1, 1));
+  Trial trial(mesh, metric, {});
+  LocalSearch search(mesh, trial, 1);
+  for (int pass = 0; pass < 12; ++pass) tries_of_a_pass(trial, search);
+  Mesh<2> copy = mesh;
+  compact(copy);
+  Background metric_of_copy(field, Point<2>(0, 0), Point<2>(1, 1));
+  Trial trial_of_copy(copy, metric_of_copy, {});
+  LocalSearch fresh(copy, trial_of_copy, 1);
+  CHECK(tries_of_a_pass(trial, search) * 4 < tries_of_a_pass(trial_of_copy, fresh) * 3);
+  CHECK(find_defects(mesh).empty());
 }
 
 }  // namespace refusals_test

@@ -51,8 +51,8 @@ Background& FullAdaptation::look_up(const Mesh<2>& mesh, const MetricField<2>& t
 FullAdaptation::Next FullAdaptation::step(Mesh<2>& mesh, const MetricField<2>& field, const MetricField<2>& target,
                                           int iteration) {
   if (!schedule_)
-    schedule_ =
-        std::make_unique<Schedule>(mesh, look_up(mesh, target), options_, diced_, halvings_, recorder_, operations_, iteration);
+    schedule_ = std::make_unique<Schedule>(mesh, look_up(mesh, target), options_, diced_, halvings_, recorder_,
+                                           operations_, iteration);
   const bool more = schedule_->step();
   activity_ = schedule_->activity();
   if (more) return Next::step;
@@ -62,6 +62,7 @@ FullAdaptation::Next FullAdaptation::step(Mesh<2>& mesh, const MetricField<2>& f
   const bool met = longest_edge(mesh, target) <= options_.threshold * (1.0 + kLongestEdgeTolerance);
   if (!met && mended_++ < kMostMended) return insert_layers(mesh);
   outcome_ = met ? Status{} : Status::limit_not_met("edges longer than the threshold remain");
+  background_.reset();
   return Next::done;
 }
 

@@ -28,12 +28,15 @@ void Refusals::make_room(CellId cells) {
 }
 
 bool Refusals::expected(Key key, double allowed) const {
+  if (entries_.empty()) return false;
   const Entry& e = entries_[place(key)];
   if (e.tag != tag(key)) return false;
   const double growth = e.growth;
   return (growth > 0.0 ? kSure : 2.0 - kSure) * growth > allowed;
 }
 
-void Refusals::remember(Key key, double growth) { entries_[place(key)] = {tag(key), static_cast<float>(growth)}; }
+void Refusals::remember(Key key, double growth) {
+  if (!entries_.empty()) entries_[place(key)] = {tag(key), static_cast<float>(growth)};
+}
 
 }  // namespace pillowmesh

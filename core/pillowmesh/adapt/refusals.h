@@ -8,9 +8,10 @@
 
 namespace pillowmesh {
 
-/// By how much refused changes would have raised the energy. A change is known by the vertices of the cells that it would make:
-/// where others have been kept meanwhile it is not the same any more. In a table of fixed size one change takes the place of
-/// another, which is then merely tried once more.
+/// By how much refused changes would have raised the energy. A change is known by the cells that it would make, not by
+/// those that it would replace: where there are other cells to replace meanwhile, or weights of the energy have changed,
+/// what is remembered is an estimate only. In a table of fixed size one change takes the place of another, which is then
+/// merely tried once more.
 class Refusals {
  public:
   using Key = std::uint64_t;
@@ -21,9 +22,9 @@ class Refusals {
   void make_room(CellId cells);
   /// Forgets everything, and holds no memory.
   void release() { std::vector<Entry>().swap(entries_); }
-  /// Whether the change, as it went last, would raise the energy by more than is allowed. \pre make_room
+  /// Whether the change, as it went last, would raise the energy by more than is allowed.
   [[nodiscard]] bool expected(Key key, double allowed) const;
-  /// \param growth of the energy, at least; may be infinite
+  /// \param growth of the energy, at least; may be infinite. Without room nothing is remembered.
   void remember(Key key, double growth);
   /// That there is room for.
   [[nodiscard]] std::size_t size() const { return entries_.size(); }

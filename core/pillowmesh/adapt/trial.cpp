@@ -260,6 +260,7 @@ double Trial::sweep(CellId first, CellId last) {
   relocator.relaxation = relaxation;
   relocator.rest = rest;
   relocator.journal = &journal_;
+  relocator.begin();
   return gain;
 }
 

@@ -50,7 +50,7 @@ class Trial {
   [[nodiscard]] Index changed(VertexId v) const { return changed_[v]; }
   Index tick() { return ++clock_; }
   void touch_all();
-  /// No change comes any more, sweeps alone: holds no memory for changes.
+  /// No change comes any more, sweeps alone: gives back what only changes need.
   void release();
 
   Cavity cavity;

@@ -151,7 +151,7 @@ void Background::make_children(Index first, double x, double y, int depth) {
     }
     if (rough > 1) make_bilinear(leaf.k);
     nodes_[first + k] = {~static_cast<Index>(leaves_.size()), rough};
-    leaves_.push_back(leaf);
+    leaves_.push_back(leaf);  // doubled where there is no room: what is not used of that takes no memory
   }
 }
 
