@@ -16,6 +16,7 @@
 #include "pillowmesh/adapt/adapter.h"
 #include "pillowmesh/mesh/any_mesh.h"
 #include "pillowmesh/mesh/boundary.h"
+#include "pillowmesh/mesh/edge_table.h"
 #include "pillowmesh/mesh/primitives.h"
 #include "pillowmesh/metric/field.h"
 #include "pillowmesh/metric/gallery.h"
@@ -56,21 +57,21 @@ std::span<const Corners<Dim>> as_cells(const std::int32_t* corners, std::uint32_
   return {reinterpret_cast<const Corners<Dim>*>(corners), count};
 }
 
-/// Each edge of the live cells once, as sorted pairs in sorted order.
+/// Points and cells are all that shapes and lengths need.
 template <int Dim>
-std::vector<std::array<VertexId, 2>> edges_of(std::span<const Corners<Dim>> cells) {
-  std::vector<std::array<VertexId, 2>> edges;
-  edges.reserve(cells.size() * Cell<Dim>::edges);
-  for (const Corners<Dim>& corners : cells) {
-    if (corners[0] == kNone) continue;
-    for (int e = 0; e < Cell<Dim>::edges; ++e) {
-      const auto [low, high] = std::minmax(corners[Cell<Dim>::edge_from(e)], corners[Cell<Dim>::edge_to(e)]);
-      edges.push_back({low, high});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
+Mesh<Dim> bare_mesh(std::span<const Point<Dim>> points, std::span<const Corners<Dim>> cells) {
+  Mesh<Dim> mesh;
+  mesh.points.assign(points.begin(), points.end());
+  mesh.cells.assign(cells.begin(), cells.end());
+  return mesh;
+}
+
+template <int Dim>
+std::vector<CellId> live_cells(const Mesh<Dim>& mesh) {
+  std::vector<CellId> live;
+  for (CellId c = 0; c < mesh.cell_count(); ++c)
+    if (mesh.alive(c)) live.push_back(c);
+  return live;
 }
 
 template <int Dim>
@@ -343,13 +344,8 @@ pm_status pm_cell_shapes(pm_session* session, const double* points, uint32_t poi
     constexpr int dim = std::decay_t<decltype(p)>::dimension;
     const auto corners = as_cells<dim>(cells, cell_count);
     if (Status fits = check_cells<dim>(corners, point_count); !fits.ok()) return fits;
-    const auto all = as_points<dim>(points, point_count);
-    Mesh<dim> mesh;  // points and cells are all that shapes need
-    mesh.points.assign(all.begin(), all.end());
-    mesh.cells.assign(corners.begin(), corners.end());
-    std::vector<CellId> live;
-    for (CellId c = 0; c < mesh.cell_count(); ++c)
-      if (mesh.alive(c)) live.push_back(c);
+    const Mesh<dim> mesh = bare_mesh<dim>(as_points<dim>(points, point_count), corners);
+    const std::vector<CellId> live = live_cells(mesh);
     std::vector<double> shapes(live.size());
     cell_shapes<dim>(mesh, *p.field, live, shapes, {});
     session->doubles.assign(cell_count, std::numeric_limits<double>::quiet_NaN());
@@ -364,9 +360,11 @@ pm_status pm_edge_lengths(pm_session* session, const double* points, uint32_t po
     constexpr int dim = std::decay_t<decltype(p)>::dimension;
     const auto corners = as_cells<dim>(cells, cell_count);
     if (Status fits = check_cells<dim>(corners, point_count); !fits.ok()) return fits;
-    const auto edges = edges_of<dim>(corners);
+    const Mesh<dim> mesh = bare_mesh<dim>(as_points<dim>(points, point_count), corners);
+    std::vector<std::array<VertexId, 2>> edges;
+    EdgeTable(mesh, live_cells(mesh)).for_each([&](VertexId a, VertexId b) { edges.push_back({a, b}); });
     session->doubles.resize(edges.size());
-    edge_lengths<dim>(*p.field, as_points<dim>(points, point_count), edges, session->doubles);
+    edge_lengths<dim>(*p.field, mesh.points, edges, session->doubles);
     session->ints.clear();
     for (const auto& e : edges) session->ints.insert(session->ints.end(), e.begin(), e.end());
     return {};

@@ -77,6 +77,59 @@ TEST_CASE("areas of corner triangles are those of collapsed cells, within the to
   }
 }
 
+TEST_CASE("areas by the lines of a quadrilateral are those of its triangles, within the tolerance") {
+  // Fine meshes, where most are good enough by lines, and coarse ones, where few are.
+  for (const char* name : {"iso2d", "circle2d", "shock2d", "larsson1"}) {
+    for (const double share : {1.0, 0.1}) {
+      const Case& c = *find_case(name);
+      const auto field = *MetricField<2>::from_formula(c.formula);
+      const AnyMesh any = *parse_primitive(c.mesh);
+      const Mesh<2>& mesh = std::get<Mesh<2>>(any);
+      std::vector<CornerPoints<2>> quads;
+      std::vector<QuadLines> lines;
+      for (CellId q = 0; q < mesh.cell_count(); ++q) {
+        CornerPoints<2> p;
+        for (int k = 0; k < 4; ++k)
+          p[k] = mesh.points[mesh.cells[q][0]] + share * (mesh.points[mesh.cells[q][k]] - mesh.points[mesh.cells[q][0]]);
+        p[3] += Point<2>(0.1 * (p[1] - p[0]) + 0.2 * (p[2] - p[0]));
+        quads.push_back(p);
+        const std::vector<Line<2>> six{{p[0], p[1]}, {p[0], p[2]}, {p[1], p[3]}, {p[2], p[3]}, {p[0], p[3]}, {p[1], p[2]}};
+        std::array<LineIntegral, 6> found;
+        line_integrals<2>(field, six, found, {.panel = 0.0125});
+        lines.push_back({found[0], found[1], found[2], found[3], found[4], found[5]});
+      }
+      const VolumeOptions options{.tolerance = 1e-3, .panel = 0.05};
+      std::vector<CornerAreas> found(quads.size()), expected(quads.size());
+      quad_areas(field, quads, lines, found, options);
+      quad_areas(field, quads, expected, {.tolerance = 1e-4, .panel = 0.05});
+      double errors = 0.0, all = 0.0, exact = 0.0;
+      for (std::size_t i = 0; i < quads.size(); ++i)
+        for (int k = 0; k < 4; ++k) {
+          INFO(name << " quadrilateral " << i << " corner " << k);
+          CHECK(found[i][k] == Approx(expected[i][k]).epsilon(2e-2));
+          errors += std::fabs(found[i][k] / expected[i][k] - 1);
+          all += found[i][k], exact += expected[i][k];
+        }
+      CHECK(errors / (4.0 * static_cast<double>(quads.size())) < 1e-3);
+      CHECK(all == Approx(exact).epsilon(5e-4));
+    }
+  }
+}
+
+TEST_CASE("a panel finds a spike that no line of a quadrilateral meets") {
+  const auto field = *MetricField<2>::from_formula("h = if(sqrt((x - 0.5)^2 + (y - 0.17)^2) < 0.04, 0.01, 1)");
+  const CornerPoints<2> unit = quad({0, 0}, {1, 0}, {1, 1}, {0, 1});
+  const LineIntegral one{1.0, 1.0, 2.0};
+  const QuadLines lines{one, one, one, one, one, one};
+  const auto whole = [&](double panel) {
+    CornerAreas a;
+    quad_areas(field, {&unit, 1}, {&lines, 1}, {&a, 1}, {.tolerance = 1e-3, .panel = panel});
+    return a[0] + a[3];
+  };
+  CHECK(whole(0.0) == Approx(1.0));
+  CHECK(whole(0.05) > 30.0);  // 51
+}
+
 TEST_CASE("a panel finds a spike between the points of a quadrilateral") {
   const char* const spike = "h1 = if(abs(x - 0.3) < 0.02, 0.01, 1); h2 = 1";
   const CornerPoints<2> unit = quad({0, 0}, {1, 0}, {1, 1}, {0, 1});

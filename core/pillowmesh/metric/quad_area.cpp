@@ -152,4 +152,75 @@ void quad_areas(const MetricField<2>& field, std::span<const CornerPoints<2>> qu
   }
 }
 
+namespace {
+
+// Of a triangle, exact to degree 3: shares of the mean over its sides, of its corners, and of the centroid.
+// Half and half of sides and centroid is exact to degree 2.
+constexpr double kSides = 0.6, kCorners = -0.05, kCentroid = 0.45;
+
+// The triangle at corner k: its neighbours counterclockwise.
+constexpr std::array<std::array<int, 2>, 4> kNext{{{1, 2}, {3, 0}, {0, 3}, {2, 1}}};
+
+/// Of each corner triangle: its sides' mean densities, and those of its corners.
+struct Rim {
+  double sides, corners;
+};
+std::array<Rim, 4> rims(const QuadLines& l) {
+  const auto rim = [](const LineIntegral& a, const LineIntegral& b, const LineIntegral& c) -> Rim {
+    return {(a.density + b.density + c.density) / 3, (a.ends + b.ends + c.ends) / 6};
+  };
+  return {rim(l.s01, l.s02, l.d12), rim(l.s01, l.s13, l.d03), rim(l.s02, l.s23, l.d03), rim(l.s13, l.s23, l.d12)};
+}
+
+/// \param centroids densities there  \return whether the areas are good enough
+bool areas_by_lines(const CornerPoints<2>& quad, const QuadLines& lines, const double* centroids, CornerAreas& areas,
+                    const VolumeOptions& options) {
+  const std::array<Rim, 4> rim = rims(lines);
+  bool good = true;
+  for (int k = 0; k < 4; ++k) {
+    const Point<2> a = quad[kNext[k][0]] - quad[k], b = quad[kNext[k][1]] - quad[k];
+    const double twice = cross(a, b);
+    const double mean = kSides * rim[k].sides + kCorners * rim[k].corners + kCentroid * centroids[k];
+    const double rougher = 0.5 * (rim[k].sides + centroids[k]);
+    const double longest = std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()});
+    areas[k] = 0.5 * twice * mean;
+    good = good && !(std::fabs(mean - rougher) > 3.0 * options.tolerance * mean) &&
+           !(options.panel > 0.0 && twice * twice > options.panel * options.panel * longest);
+  }
+  return good;
+}
+
+}  // namespace
+
+void quad_areas(const MetricField<2>& field, std::span<const CornerPoints<2>> quads, std::span<const QuadLines> lines,
+                std::span<CornerAreas> areas, const VolumeOptions& options) {
+  constexpr std::size_t batch = kLanes / 4;
+  std::vector<CornerPoints<2>> rough;
+  std::vector<std::size_t> places;
+  PointLanes<2> points{};
+  TensorLanes<2> tensors{};
+  Lanes density;
+  for (std::size_t start = 0; start < quads.size(); start += batch) {
+    const std::size_t count = std::min(batch, quads.size() - start);
+    for (std::size_t i = 0; i < count; ++i) {
+      const CornerPoints<2>& q = quads[start + i];
+      for (int k = 0; k < 4; ++k)
+        for (int d = 0; d < 2; ++d) points[d][4 * i + k] = (q[k][d] + q[kNext[k][0]][d] + q[kNext[k][1]][d]) / 3;
+    }
+    field.evaluate(points, static_cast<int>(4 * count), tensors);
+    for (int i = 0; i < kLanes; ++i) {
+      const double det = tensors[0][i] * tensors[2][i] - tensors[1][i] * tensors[1][i];
+      density[i] = std::sqrt(det < 0.0 ? 0.0 : det);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (areas_by_lines(quads[start + i], lines[start + i], &density[4 * i], areas[start + i], options)) continue;
+      rough.push_back(quads[start + i]);
+      places.push_back(start + i);
+    }
+  }
+  std::vector<CornerAreas> found(rough.size());
+  quad_areas(field, rough, found, options);
+  for (std::size_t i = 0; i < rough.size(); ++i) areas[places[i]] = found[i];
+}
+
 }  // namespace pillowmesh

@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "pillowmesh/metric/line_integral.h"
 #include "pillowmesh/metric/volume.h"
 
 namespace pillowmesh {
@@ -18,5 +19,17 @@ using CornerAreas = std::array<double, 4>;
 /// Memory does not grow with the number of quadrilaterals. \pre areas.size() == quads.size()
 void quad_areas(const MetricField<2>& field, std::span<const CornerPoints<2>> quads, std::span<CornerAreas> areas,
                 const VolumeOptions& options = {});
+
+/// The sides of a quadrilateral between the corners 01, 02, 13, 23, and its diagonals 03, 12.
+struct QuadLines {
+  LineIntegral s01, s02, s13, s23, d03, d12;
+};
+
+/// The same areas to about the tolerance, where sides and diagonals have been integrated: four evaluations for each
+/// quadrilateral, by a rule of degree 3 that takes the means over the sides of a triangle and its centroid. Where a rule of
+/// degree 2 differs from it by more than three tolerances, or a triangle is higher than the panel, by quad_areas.
+/// \pre lines.size() == quads.size()
+void quad_areas(const MetricField<2>& field, std::span<const CornerPoints<2>> quads, std::span<const QuadLines> lines,
+                std::span<CornerAreas> areas, const VolumeOptions& options = {});
 
 }  // namespace pillowmesh

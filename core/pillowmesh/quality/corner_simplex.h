@@ -39,7 +39,7 @@ struct SimplexPairs {
         const int low = e[0] < e[1] ? e[0] : e[1];
         const int high = e[0] < e[1] ? e[1] : e[0];
         int at = 0;
-        while (at < found && (pair[at][0] != low || pair[at][1] != high)) ++at;
+        while (at < found && !is(at, low, high)) ++at;
         if (at == found) {
           pair[found][0] = low;
           pair[found++][1] = high;
@@ -49,11 +49,21 @@ struct SimplexPairs {
     }
   }
 
+  /// The pair of these corners. \pre a < b, some simplex has that edge
+  [[nodiscard]] constexpr int find(int a, int b) const {
+    int j = 0;
+    while (!is(j, a, b)) ++j;
+    return j;
+  }
+
   /// Whether pair j is an edge of the cell, and no diagonal.
   [[nodiscard]] constexpr bool is_edge(int j) const {
     const int bits = pair[j][0] ^ pair[j][1];
     return (bits & (bits - 1)) == 0;
   }
+
+ private:
+  [[nodiscard]] constexpr bool is(int j, int a, int b) const { return pair[j][0] == a && pair[j][1] == b; }
 };
 
 /// The simplex at corner k of cell c, positively oriented where the cell is.

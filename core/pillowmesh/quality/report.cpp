@@ -8,6 +8,7 @@
 #include "pillowmesh/mesh/topology.h"
 #include "pillowmesh/mesh/validate.h"
 #include "pillowmesh/metric/length.h"
+#include "pillowmesh/metric/line_integral.h"
 #include "pillowmesh/metric/volume.h"
 #include "pillowmesh/quality/jacobian.h"
 #include "pillowmesh/quality/shape.h"
@@ -30,50 +31,54 @@ bool walkable(const std::vector<Defect>& defects) {
   return true;
 }
 
-/// All edges in the order of KnownLengths.
-template <int Dim>
-std::vector<std::array<VertexId, 2>> sorted_edges(const Mesh<Dim>& mesh) {
-  std::vector<std::array<VertexId, 2>> edges = unique_edges(mesh);
-  for (auto& e : edges)
-    if (e[1] < e[0]) std::swap(e[0], e[1]);
-  std::sort(edges.begin(), edges.end());
-  return edges;
+Statistics length_statistics(std::span<const LineIntegral> integrals) {
+  std::vector<double> lengths;
+  lengths.reserve(integrals.size());
+  for (const LineIntegral& i : integrals) lengths.push_back(i.length);
+  return statistics(lengths);
 }
 
 /// Of the anisotropic edges: for an edge of direction e, sin^2(2 phi) = 4 c (1 - c) with c the share of one eigenvector
 /// in e, and with r = det |e|^2 / (e' M e) that is 4 (r (t - r) - det) / (t^2 - 4 det), t = tr M.
-double mean_misalignment(const Mesh<2>& mesh, const MetricField<2>& field, std::span<const std::array<VertexId, 2>> edges) {
+double mean_misalignment(const Mesh<2>& mesh, const MetricField<2>& field, const EdgeTable& edges) {
   double sum = 0.0;
   std::int64_t count = 0;
-  std::vector<Point<2>> middles(edges.size());
-  std::vector<SymTensor<2>> tensors(edges.size());
-  for (std::size_t i = 0; i < edges.size(); ++i) middles[i] = 0.5 * (mesh.points[edges[i][0]] + mesh.points[edges[i][1]]);
-  field.evaluate(middles, tensors);
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const Point<2> e = mesh.points[edges[i][1]] - mesh.points[edges[i][0]];
-    const SymTensor<2>& M = tensors[i];
-    const double t = M.m[0] + M.m[2], det = determinant(M);
-    // The eigenvalues' ratio is above 2^2 where t^2 / det is above (4 + 1)^2 / 4.
-    if (!(t * t > 6.25 * det)) continue;
-    const double r = det * e.squaredNorm() / dot(M, e, e);
-    sum += 4.0 * (r * (t - r) - det) / (t * t - 4.0 * det);
-    ++count;
-  }
+  PointLanes<2> middles, vectors;
+  TensorLanes<2> tensors;
+  int used = 0;
+  const auto add_all = [&] {
+    field.evaluate(middles, used, tensors);
+    for (int i = 0; i < used; ++i) {
+      const Point<2> e(vectors[0][i], vectors[1][i]);
+      const SymTensor<2> M{{tensors[0][i], tensors[1][i], tensors[2][i]}};
+      const double t = M.m[0] + M.m[2], det = determinant(M);
+      // The eigenvalues' ratio is above 2^2 where t^2 / det is above (4 + 1)^2 / 4.
+      if (!(t * t > 6.25 * det)) continue;
+      const double r = det * e.squaredNorm() / dot(M, e, e);
+      sum += 4.0 * (r * (t - r) - det) / (t * t - 4.0 * det);
+      ++count;
+    }
+    used = 0;
+  };
+  edges.for_each([&](VertexId a, VertexId b) {
+    for (int d = 0; d < 2; ++d) {
+      middles[d][used] = 0.5 * (mesh.points[a][d] + mesh.points[b][d]);
+      vectors[d][used] = mesh.points[b][d] - mesh.points[a][d];
+    }
+    if (++used == kLanes) add_all();
+  });
+  if (used > 0) add_all();
   return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
 template <int Dim>
-void measure_cells(const Mesh<Dim>& mesh, const MetricField<Dim>& field, const LengthOptions& options,
-                   const KnownLengths& known, Report& report) {
-  std::vector<CellId> cells;
-  for (CellId c = 0; c < mesh.cell_count(); ++c) {
-    if (mesh.alive(c)) cells.push_back(c);
-  }
+void measure_cells(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells, const LineOptions& options,
+                   const EdgeIntegrals& edges, Report& report) {
   report.cells = static_cast<Index>(cells.size());
   std::vector<double> values(cells.size());
   {
     std::vector<double> integral(cells.size());
-    cell_shapes<Dim>(mesh, field, cells, values, integral, options, known, &report.complexity);
+    cell_shapes<Dim>(mesh, field, cells, values, integral, options, &edges, &report.complexity);
     report.shape = statistics(values);
     report.shape_integral = statistics(integral);
   }
@@ -95,14 +100,15 @@ Report measure(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
   if (!report.valid) report.defect = defects[0].message;
   if (!walkable<Dim>(defects)) return report;
 
-  const LengthOptions options{.tolerance = 1e-5, .panel = default_panel<Dim>(mesh.points)};
-  const std::vector<std::array<VertexId, 2>> edges = sorted_edges(mesh);
-  std::vector<double> lengths(edges.size());
-  edge_lengths<Dim>(field, mesh.points, edges, lengths, options);
-  report.edges = static_cast<Index>(edges.size());
-  report.edge_length = statistics(lengths);
-  measure_cells(mesh, field, options, {edges, lengths}, report);
-  if constexpr (Dim == 2) report.misalignment = mean_misalignment(mesh, field, edges);
+  const LineOptions options{.panel = default_panel<Dim>(mesh.points)};
+  std::vector<CellId> cells;
+  for (CellId c = 0; c < mesh.cell_count(); ++c)
+    if (mesh.alive(c)) cells.push_back(c);
+  const EdgeIntegrals edges = edge_integrals<Dim>(mesh, field, cells, options);
+  report.edges = edges.edges.size();
+  report.edge_length = length_statistics(edges.along);
+  measure_cells<Dim>(mesh, field, cells, options, edges, report);
+  if constexpr (Dim == 2) report.misalignment = mean_misalignment(mesh, field, edges.edges);
   for (const unsigned char mark : irregular_vertices(mesh)) report.irregular_vertices += mark;
   if constexpr (Dim == 3) {
     // Errors of many cells cancel each other: the sum is as exact as that over a few dozen.

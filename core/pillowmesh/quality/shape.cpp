@@ -12,67 +12,70 @@
 namespace pillowmesh {
 namespace {
 
-// Metric lengths of all edges of all corner simplices of a chunk of cells. Neighbouring cells and corners share most
-// of them: each is integrated once.
+// Integrals along all edges of all corner simplices of a chunk of cells: those of the cells are known, diagonals are new.
 template <int Dim>
 class SimplexEdges {
  public:
   static constexpr SimplexPairs<Dim> kPairs{};
-  static constexpr int kPerCell = SimplexPairs<Dim>::count;
+
+  explicit SimplexEdges(const EdgeIntegrals& known) : known_(known) {}
 
   void measure(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
-               const LengthOptions& options, const KnownLengths& known) {
+               const LineOptions& options) {
+    place_.resize(cells.size() * kPerCell);
     keys_.clear();
+    lines_.clear();
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      for (int j = 0; j < kPerCell; ++j) keys_.push_back({key(mesh.cells[cells[i]], j), i * kPerCell + j});
-    }
-    std::sort(keys_.begin(), keys_.end());
-    pairs_.clear();
-    unknown_.clear();
-    unique_.clear();
-    auto next = known.edges.begin();
-    for (std::size_t i = 0; i < keys_.size(); ++i) {
-      if (i > 0 && keys_[i][0] == keys_[i - 1][0]) continue;
-      const std::array<VertexId, 2> pair{static_cast<VertexId>(keys_[i][0] >> 32),
-                                         static_cast<VertexId>(keys_[i][0] & 0xffffffffu)};
-      const bool diagonal = !kPairs.is_edge(static_cast<int>(keys_[i][1] % kPerCell));
-      if (!diagonal) next = std::lower_bound(next, known.edges.end(), pair);
-      if (!diagonal && next != known.edges.end() && *next == pair) {
-        unique_.push_back(known.lengths[next - known.edges.begin()]);
-        continue;
+      for (int j = 0; j < kPerCell; ++j) {
+        const VertexId a = mesh.cells[cells[i]][kPairs.pair[j][0]], b = mesh.cells[cells[i]][kPairs.pair[j][1]];
+        Index& place = place_[i * kPerCell + j];
+        if (kPairs.is_edge(j)) {
+          place = known_.edges.find(a, b);
+        } else if (Dim == 2) {
+          place = static_cast<Index>(lines_.size());
+          lines_.push_back({mesh.points[a], mesh.points[b]});
+        } else {
+          keys_.push_back({key(a, b), i * kPerCell + j});
+        }
       }
-      unknown_.push_back(unique_.size());
-      unique_.push_back(0.0);
-      pairs_.push_back(pair);
     }
-    found_.resize(pairs_.size());
-    edge_lengths<Dim>(field, mesh.points, pairs_, found_, options);
-    for (std::size_t k = 0; k < unknown_.size(); ++k) unique_[unknown_[k]] = found_[k];
-    lengths_.resize(keys_.size());
-    std::size_t at = 0;
+    // Neighbouring hexahedra and corners share diagonals: each is integrated once.
+    std::sort(keys_.begin(), keys_.end());
     for (std::size_t i = 0; i < keys_.size(); ++i) {
-      if (i > 0 && keys_[i][0] != keys_[i - 1][0]) ++at;
-      lengths_[keys_[i][1]] = unique_[at];
+      if (i == 0 || keys_[i][0] != keys_[i - 1][0])
+        lines_.push_back({mesh.points[keys_[i][0] >> 32], mesh.points[keys_[i][0] & 0xffffffffu]});
+      place_[keys_[i][1]] = static_cast<Index>(lines_.size()) - 1;
     }
+    diagonals_.resize(lines_.size());
+    line_integrals<Dim>(field, lines_, diagonals_, options);
+  }
+
+  /// Pair j of the i-th cell (SimplexPairs).
+  [[nodiscard]] const LineIntegral& line(std::size_t i, int j) const {
+    const Index place = place_[i * kPerCell + j];
+    return kPairs.is_edge(j) ? known_.along[place] : diagonals_[place];
   }
 
   /// Of simplex k of the i-th cell.
   [[nodiscard]] SimplexLengths<Dim> simplex(std::size_t i, int k) const {
     SimplexLengths<Dim> l;
-    for (std::size_t e = 0; e < l.size(); ++e) l[e] = lengths_[i * kPerCell + kPairs.place[k][e]];
+    for (std::size_t e = 0; e < l.size(); ++e) l[e] = line(i, kPairs.place[k][e]).length;
     return l;
   }
 
  private:
-  static std::uint64_t key(const Corners<Dim>& corners, int j) {
-    const auto [low, high] = std::minmax(corners[kPairs.pair[j][0]], corners[kPairs.pair[j][1]]);
+  static constexpr int kPerCell = SimplexPairs<Dim>::count;
+
+  static std::uint64_t key(VertexId a, VertexId b) {
+    const auto [low, high] = std::minmax(a, b);
     return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high);
   }
 
-  std::vector<std::array<std::uint64_t, 2>> keys_;  // vertex pair, place in lengths_
-  std::vector<std::array<VertexId, 2>> pairs_;  // to be integrated
-  std::vector<std::size_t> unknown_;            // their places in unique_
-  std::vector<double> found_, unique_, lengths_;
+  const EdgeIntegrals& known_;
+  std::vector<Index> place_;                        // of each pair of each cell, among the edges or the diagonals
+  std::vector<std::array<std::uint64_t, 2>> keys_;  // vertex pair, place in place_
+  std::vector<Line<Dim>> lines_;                    // diagonals
+  std::vector<LineIntegral> diagonals_;
 };
 
 // Volume of the flat simplex from the Gram matrix of the edges out of the corner; 0 if the matrix is not positive
@@ -106,21 +109,29 @@ class SimplexVolumes<2> {
  public:
   SimplexVolumes(const MetricField<2>& field, double panel) : field_(field), options_(VolumeOptions::for_panel(2, panel, 1e-3)) {}
 
-  void measure(const Mesh<2>& mesh, std::span<const CellId> cells) {
+  void measure(const Mesh<2>& mesh, std::span<const CellId> cells, const SimplexEdges<2>& edges) {
     quads_.resize(cells.size());
-    for (std::size_t i = 0; i < cells.size(); ++i)
+    lines_.resize(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
       for (int k = 0; k < 4; ++k) quads_[i][k] = mesh.points[mesh.cells[cells[i]][k]];
+      const auto line = [&](int a, int b) -> const LineIntegral& { return edges.line(i, SimplexEdges<2>::kPairs.find(a, b)); };
+      lines_[i] = {line(0, 1), line(0, 2), line(1, 3), line(2, 3), line(0, 3), line(1, 2)};
+    }
     areas_.resize(cells.size());
-    quad_areas(field_, quads_, areas_, options_);
+    quad_areas(field_, quads_, lines_, areas_, options_);
   }
   [[nodiscard]] double simplex(std::size_t i, int k) const { return areas_[i][k]; }
   /// Those at two opposite corners make the cell, as do the other two.
-  [[nodiscard]] double cell(std::size_t i) const { return areas_[i][0] + areas_[i][3]; }
+  [[nodiscard]] double cell(std::size_t i) const {
+    const CornerAreas& a = areas_[i];
+    return 0.5 * ((a[0] + a[3]) + (a[1] + a[2]));
+  }
 
  private:
   const MetricField<2>& field_;
   VolumeOptions options_;
   std::vector<CornerPoints<2>> quads_;
+  std::vector<QuadLines> lines_;
   std::vector<CornerAreas> areas_;
 };
 
@@ -129,7 +140,7 @@ class SimplexVolumes<3> {
  public:
   SimplexVolumes(const MetricField<3>& field, double panel) : field_(field), options_(VolumeOptions::for_panel(3, panel, 5e-3)) {}
 
-  void measure(const Mesh<3>& mesh, std::span<const CellId> cells) {
+  void measure(const Mesh<3>& mesh, std::span<const CellId> cells, const SimplexEdges<3>&) {
     simplices_.clear();
     for (const CellId c : cells)
       for (int k = 0; k < 8; ++k) simplices_.push_back(corner_simplex<3>(mesh, c, k));
@@ -170,17 +181,43 @@ double simplex_shape(const SimplexLengths<Dim>& lengths) {
 }
 
 template <int Dim>
+EdgeIntegrals edge_integrals(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
+                             const LineOptions& options) {
+  constexpr std::size_t chunk = 1024;
+  EdgeIntegrals e{EdgeTable(mesh, cells), {}};
+  e.along.resize(e.edges.size());
+  std::vector<Line<Dim>> lines;
+  std::size_t done = 0;
+  const auto integrate = [&] {
+    line_integrals<Dim>(field, lines, std::span(e.along).subspan(done, lines.size()), options);
+    done += lines.size();
+    lines.clear();
+  };
+  e.edges.for_each([&](VertexId a, VertexId b) {
+    lines.push_back({mesh.points[a], mesh.points[b]});
+    if (lines.size() == chunk) integrate();
+  });
+  integrate();
+  return e;
+}
+
+template <int Dim>
 void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
-                 std::span<double> flat, std::span<double> integral, const LengthOptions& options,
-                 const KnownLengths& known, double* area) {
+                 std::span<double> flat, std::span<double> integral, const LineOptions& options,
+                 const EdgeIntegrals* known, double* area) {
+  EdgeIntegrals own;
+  if (known == nullptr) {
+    own = edge_integrals(mesh, field, cells, options);
+    known = &own;
+  }
   constexpr std::size_t kChunk = 1024;
   constexpr int kCorners = Cell<Dim>::corners;
-  SimplexEdges<Dim> edges;
+  SimplexEdges<Dim> edges(*known);
   SimplexVolumes<Dim> volumes(field, options.panel);
   for (std::size_t start = 0; start < cells.size(); start += kChunk) {
     const std::span<const CellId> chunk = cells.subspan(start, std::min(kChunk, cells.size() - start));
-    edges.measure(mesh, field, chunk, options, known);
-    if (!integral.empty()) volumes.measure(mesh, chunk);
+    edges.measure(mesh, field, chunk, options);
+    if (!integral.empty()) volumes.measure(mesh, chunk, edges);
     for (std::size_t i = 0; i < chunk.size(); ++i) {
       std::array<double, kCorners> eta;
       std::array<double, kCorners> eta_integral{};
@@ -202,7 +239,9 @@ void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span
   template double simplex_shape<D>(const SimplexLengths<D>&);                                                     \
   template double simplex_shape<D>(const SimplexLengths<D>&, double);                                             \
   template void cell_shapes<D>(const Mesh<D>&, const MetricField<D>&, std::span<const CellId>, std::span<double>, \
-                               std::span<double>, const LengthOptions&, const KnownLengths&, double*);
+                               std::span<double>, const LineOptions&, const EdgeIntegrals*, double*);                          \
+  template EdgeIntegrals edge_integrals<D>(const Mesh<D>&, const MetricField<D>&, std::span<const CellId>,        \
+                                           const LineOptions&);
 PILLOWMESH_INSTANTIATE(2)
 PILLOWMESH_INSTANTIATE(3)
 #undef PILLOWMESH_INSTANTIATE

@@ -4,10 +4,12 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
+#include "pillowmesh/mesh/edge_table.h"
 #include "pillowmesh/mesh/mesh.h"
 #include "pillowmesh/metric/field.h"
-#include "pillowmesh/metric/length.h"
+#include "pillowmesh/metric/line_integral.h"
 
 namespace pillowmesh {
 
@@ -26,21 +28,25 @@ double simplex_shape(const SimplexLengths<Dim>& lengths);
 template <int Dim>
 double simplex_shape(const SimplexLengths<Dim>& lengths, double volume);
 
-/// Lengths of edges that have been integrated already: the lower vertex first, in ascending order.
-struct KnownLengths {
-  std::span<const std::array<VertexId, 2>> edges;
-  std::span<const double> lengths;
+/// The edges of cells and what has been integrated along them.
+struct EdgeIntegrals {
+  EdgeTable edges;
+  std::vector<LineIntegral> along;  ///< each edge
 };
 
-/// eta of each of `cells`, the least over its 2^Dim corner simplices.
+template <int Dim>
+EdgeIntegrals edge_integrals(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
+                             const LineOptions& options);
+
+/// eta of each of `cells`, the least over its 2^Dim corner simplices. Points and cells are all of the mesh that is needed.
 /// \param flat out: with flat simplices. \pre flat.size() == cells.size()
 /// \param integral out: with the integral of sqrt(det M) over the corner simplices, to 0.1 %; may be empty.
 /// \param options how all edges and diagonals of the simplices are integrated.
-/// \param known lengths found with the same options: these edges are not integrated again.
+/// \param known those of the cells, found with the same options; null: they are integrated here.
 /// \param area 2D, with `integral`: the metric areas of the cells are added to it; may be null.
 template <int Dim>
 void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
-                 std::span<double> flat, std::span<double> integral, const LengthOptions& options = {},
-                 const KnownLengths& known = {}, double* area = nullptr);
+                 std::span<double> flat, std::span<double> integral, const LineOptions& options = {},
+                 const EdgeIntegrals* known = nullptr, double* area = nullptr);
 
 }  // namespace pillowmesh
