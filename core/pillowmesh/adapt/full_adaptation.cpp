@@ -42,7 +42,8 @@ Background& FullAdaptation::look_up(const Mesh<2>& mesh, const MetricField<2>& t
   if (background_ && background_->is_for(low, high) && background_coarser_ == 2 * coarser()) {
     background_->halve_sizes(target);
   } else if (!background_ || !background_->is_for(low, high) || background_coarser_ != coarser()) {
-    background_ = std::make_unique<Background>(target, low, high, BackgroundOptions{.tolerance = 5e-3, .smallest = 0.5});
+    const double smallest = options_.effort == Effort::best ? 0.5 : 1.0;
+    background_ = std::make_unique<Background>(target, low, high, BackgroundOptions{.tolerance = 5e-3, .smallest = smallest});
   }
   background_coarser_ = coarser();
   return *background_;

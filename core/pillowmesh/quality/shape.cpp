@@ -31,7 +31,7 @@ class SimplexEdges {
         Index& place = place_[i * kPerCell + j];
         if (kPairs.is_edge(j)) {
           place = known_.edges.find(a, b);
-        } else if (Dim == 2) {
+        } else if constexpr (Dim == 2) {
           place = static_cast<Index>(lines_.size());
           lines_.push_back({mesh.points[a], mesh.points[b]});
         } else {
@@ -39,12 +39,14 @@ class SimplexEdges {
         }
       }
     }
-    // Neighbouring hexahedra and corners share diagonals: each is integrated once.
-    std::sort(keys_.begin(), keys_.end());
-    for (std::size_t i = 0; i < keys_.size(); ++i) {
-      if (i == 0 || keys_[i][0] != keys_[i - 1][0])
-        lines_.push_back({mesh.points[keys_[i][0] >> 32], mesh.points[keys_[i][0] & 0xffffffffu]});
-      place_[keys_[i][1]] = static_cast<Index>(lines_.size()) - 1;
+    if constexpr (Dim == 3) {
+      // Neighbouring cells and corners share diagonals: each is integrated once.
+      std::sort(keys_.begin(), keys_.end());
+      for (std::size_t i = 0; i < keys_.size(); ++i) {
+        if (i == 0 || keys_[i][0] != keys_[i - 1][0])
+          lines_.push_back({mesh.points[keys_[i][0] >> 32], mesh.points[keys_[i][0] & 0xffffffffu]});
+        place_[keys_[i][1]] = static_cast<Index>(lines_.size()) - 1;
+      }
     }
     diagonals_.resize(lines_.size());
     line_integrals<Dim>(field, lines_, diagonals_, options);
