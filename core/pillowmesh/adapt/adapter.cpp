@@ -163,7 +163,7 @@ struct Adapter<Dim>::State {
     }
     const bool over = seeds.empty() || !again || iteration - first_iteration == options.max_iterations;
     if (over && !continuation.done()) return lower_floor();
-    if (over) {
+    if (over || (iteration > first_iteration && has_enough())) {
       if ((!seeds.empty() || tagging.waiting()) && !meets_request())
         outcome = Status::limit_not_met(
             again ? "edges longer than the threshold remain after " + std::to_string(iteration) + " iterations"
@@ -194,6 +194,11 @@ struct Adapter<Dim>::State {
     inserted = 0;
     layer_marks.refined.clear();
     stage = Stage::layers;
+  }
+
+  [[nodiscard]] bool has_enough() const {
+    if constexpr (Dim == 2 && kHasFullAdaptation) return improvement && improvement->has_enough(mesh);
+    return false;
   }
 
   /// Where the threshold is lower than asked for, edges above it are no failure.

@@ -15,10 +15,14 @@ constexpr int kMostMended = 2;
 /// follow the metric are fewer then (circle2d, fast: 13 moves a cell for 22, cv .16 for .14).
 constexpr double kFewTimes = 2.0, kSeveralTimes = 6.0;
 
+/// Share of the cells that a coarse mesh is to have from which on there are enough: where layers go through the whole mesh for
+/// a few long edges the next would make several times as many, which the search takes long to remove (shock2d, normal: 120
+/// moves a cell for 150).
+constexpr double kEnough = 0.9;
+
 /// How often sizes can be doubled until the cells that are given are about as many as there are to be.
-int halvings_to_come(const Mesh<2>& mesh, const MetricField<2>& field, const AdaptOptions& options) {
+int halvings_to_come(const Mesh<2>& mesh, double ideal, const AdaptOptions& options) {
   if (mesh.frozen) return 0;
-  const double ideal = complexity(mesh, field, {.tolerance = 1e-2});
   if (ideal > static_cast<double>(options.max_cells)) return 0;  // layers stop before that many
   int n = 0;
   const double times = options.effort == Effort::fast ? kFewTimes : kSeveralTimes;
@@ -33,7 +37,14 @@ FullAdaptation::FullAdaptation(const Mesh<2>& mesh, const MetricField<2>& field,
     : options_(options),
       recorder_(recorder),
       operations_(operations),
-      halvings_(halvings_to_come(mesh, field, options)) {}
+      ideal_cells_(complexity(mesh, field, {.tolerance = 1e-2})),
+      halvings_(halvings_to_come(mesh, ideal_cells_, options)) {}
+
+bool FullAdaptation::has_enough(const Mesh<2>& mesh) const {
+  // The last layers are the best: rows along the feature where it is sharpest.
+  if (halvings_ == 0 || options_.effort == Effort::best) return false;
+  return mesh.cell_count() >= kEnough * ideal_cells_ / (coarser() * coarser());
+}
 
 void FullAdaptation::begin(const Mesh<2>& mesh) {
   diced_ = 10 * mesh.cell_count() < 11 * cells_before_layers_;  // a few layers more only have to be mended

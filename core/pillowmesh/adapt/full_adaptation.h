@@ -11,7 +11,7 @@
 namespace pillowmesh {
 
 /// Says, and does, what follows when no layer is left to insert. Searches coarse meshes first, where that costs least: one
-/// whose edges are about as long as those of the input, then finer ones, made by dicing, that only have to be mended.
+/// of about as many cells as the input, then finer ones, made by dicing, that only have to be mended.
 class FullAdaptation {
  public:
   /// What the driver is to do now.
@@ -28,6 +28,9 @@ class FullAdaptation {
 
   /// How many times as long as they are to become edges are meant to be for now.
   [[nodiscard]] int coarser() const { return 1 << halvings_; }
+
+  /// Whether a coarse mesh has about as many cells as it is to have, and needs no more layers than it was given.
+  [[nodiscard]] bool has_enough(const Mesh<2>& mesh) const;
 
   /// All layers are there, for the first time or once more: what follows is as long as they were many.
   void begin(const Mesh<2>& mesh);
@@ -50,6 +53,7 @@ class FullAdaptation {
   const AdaptOptions& options_;
   Recorder<2>& recorder_;
   std::map<std::string, std::int64_t>& operations_;
+  double ideal_cells_;  ///< of the finest mesh
   int halvings_ = 0;    ///< how often the mesh is still to be diced in four
   bool diced_ = false;  ///< the mesh was made from one that had been adapted: it only has to be mended
   CellId cells_before_layers_ = 0;

@@ -172,11 +172,13 @@ std::array<Rim, 4> rims(const QuadLines& l) {
   return {rim(l.s01, l.s02, l.d12), rim(l.s01, l.s13, l.d03), rim(l.s02, l.s23, l.d03), rim(l.s13, l.s23, l.d12)};
 }
 
-/// \param centroids densities there  \return whether the areas are good enough
-bool areas_by_lines(const CornerPoints<2>& quad, const QuadLines& lines, const double* centroids, CornerAreas& areas,
+enum class Found { good, rough, high };  // not good enough; where something may hide from the lines
+
+/// \param centroids densities there
+Found areas_by_lines(const CornerPoints<2>& quad, const QuadLines& lines, const double* centroids, CornerAreas& areas,
                     const VolumeOptions& options) {
   const std::array<Rim, 4> rim = rims(lines);
-  bool good = true;
+  bool good = true, high = false;
   for (int k = 0; k < 4; ++k) {
     const Point<2> a = quad[kNext[k][0]] - quad[k], b = quad[kNext[k][1]] - quad[k];
     const double twice = cross(a, b);
@@ -184,10 +186,10 @@ bool areas_by_lines(const CornerPoints<2>& quad, const QuadLines& lines, const d
     const double rougher = 0.5 * (rim[k].sides + centroids[k]);
     const double longest = std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()});
     areas[k] = 0.5 * twice * mean;
-    good = good && !(std::fabs(mean - rougher) > 3.0 * options.tolerance * mean) &&
-           !(options.panel > 0.0 && twice * twice > options.panel * options.panel * longest);
+    good = good && !(std::fabs(mean - rougher) > 3.0 * options.tolerance * mean);
+    high = high || (options.panel > 0.0 && twice * twice > options.panel * options.panel * longest);
   }
-  return good;
+  return high ? Found::high : (good ? Found::good : Found::rough);
 }
 
 }  // namespace
@@ -195,8 +197,10 @@ bool areas_by_lines(const CornerPoints<2>& quad, const QuadLines& lines, const d
 void quad_areas(const MetricField<2>& field, std::span<const CornerPoints<2>> quads, std::span<const QuadLines> lines,
                 std::span<CornerAreas> areas, const VolumeOptions& options) {
   constexpr std::size_t batch = kLanes / 4;
-  std::vector<CornerPoints<2>> rough;
-  std::vector<std::size_t> places;
+  struct Again {
+    std::vector<CornerPoints<2>> quads;
+    std::vector<std::size_t> places;
+  } rough, high;
   PointLanes<2> points{};
   TensorLanes<2> tensors{};
   Lanes density;
@@ -213,14 +217,20 @@ void quad_areas(const MetricField<2>& field, std::span<const CornerPoints<2>> qu
       density[i] = std::sqrt(det < 0.0 ? 0.0 : det);
     }
     for (std::size_t i = 0; i < count; ++i) {
-      if (areas_by_lines(quads[start + i], lines[start + i], &density[4 * i], areas[start + i], options)) continue;
-      rough.push_back(quads[start + i]);
-      places.push_back(start + i);
+      const Found found = areas_by_lines(quads[start + i], lines[start + i], &density[4 * i], areas[start + i], options);
+      if (found == Found::good) continue;
+      Again& again = found == Found::rough ? rough : high;
+      again.quads.push_back(quads[start + i]);
+      again.places.push_back(start + i);
     }
   }
-  std::vector<CornerAreas> found(rough.size());
-  quad_areas(field, rough, found, options);
-  for (std::size_t i = 0; i < rough.size(); ++i) areas[places[i]] = found[i];
+  const auto integrate = [&](const Again& again, double panel) {
+    std::vector<CornerAreas> found(again.quads.size());
+    quad_areas(field, again.quads, found, {options.tolerance, panel});
+    for (std::size_t i = 0; i < found.size(); ++i) areas[again.places[i]] = found[i];
+  };
+  integrate(rough, 0.0);
+  integrate(high, options.panel);
 }
 
 }  // namespace pillowmesh

@@ -27,7 +27,7 @@ struct QuadLines {
 
 /// The same areas to about the tolerance, where sides and diagonals have been integrated: four evaluations for each
 /// quadrilateral, by a rule of degree 3 that takes the means over the sides of a triangle and its centroid. Where a rule of
-/// degree 2 differs from it by more than three tolerances, or a triangle is higher than the panel, by quad_areas.
+/// degree 2 differs from it by more than three tolerances, as above, in panels only where a triangle is higher than one.
 /// \pre lines.size() == quads.size()
 void quad_areas(const MetricField<2>& field, std::span<const CornerPoints<2>> quads, std::span<const QuadLines> lines,
                 std::span<CornerAreas> areas, const VolumeOptions& options = {});

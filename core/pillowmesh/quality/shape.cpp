@@ -49,7 +49,10 @@ class SimplexEdges {
       }
     }
     diagonals_.resize(lines_.size());
-    line_integrals<Dim>(field, lines_, diagonals_, options);
+    // Features as narrow as a panel are found by the edges.
+    LineOptions coarser = options;
+    coarser.panel *= 2.0;
+    line_integrals<Dim>(field, lines_, diagonals_, coarser);
   }
 
   /// Pair j of the i-th cell (SimplexPairs).
