@@ -11,7 +11,7 @@
 namespace pillowmesh {
 
 /// Says, and does, what follows when no layer is left to insert. Searches coarse meshes first, where that costs least: one
-/// of about as many cells as the input, then finer ones, made by dicing, that only have to be mended.
+/// whose edges are about as long as those of the input, then finer ones, made by dicing, that only have to be mended.
 class FullAdaptation {
  public:
   /// What the driver is to do now.

@@ -31,6 +31,14 @@ double longest_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
 }
 
 template <int Dim>
+double mean_edge_length(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
+  const auto lengths = lengths_of<Dim>(unique_edges(mesh), mesh, field);
+  double sum = 0.0;
+  for (const double l : lengths) sum += l;
+  return lengths.empty() ? 0.0 : sum / static_cast<double>(lengths.size());
+}
+
+template <int Dim>
 Status check_frozen_edges(const Mesh<Dim>& mesh, const MetricField<Dim>& field, double threshold) {
   if (!mesh.frozen || mesh.frozen->edges.empty()) return {};
   const auto lengths = lengths_of(mesh.frozen->edges, mesh, field);
@@ -43,6 +51,8 @@ Status check_frozen_edges(const Mesh<Dim>& mesh, const MetricField<Dim>& field, 
 
 template double longest_edge(const Mesh<2>&, const MetricField<2>&);
 template double longest_edge(const Mesh<3>&, const MetricField<3>&);
+template double mean_edge_length(const Mesh<2>&, const MetricField<2>&);
+template double mean_edge_length(const Mesh<3>&, const MetricField<3>&);
 template Status check_frozen_edges(const Mesh<2>&, const MetricField<2>&, double);
 template Status check_frozen_edges(const Mesh<3>&, const MetricField<3>&, double);
 

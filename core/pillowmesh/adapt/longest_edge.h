@@ -14,6 +14,10 @@ inline constexpr double kLongestEdgeTolerance = 1e-3;
 template <int Dim>
 double longest_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field);
 
+/// The mean metric length of the edges. Cost: linear in the mesh.
+template <int Dim>
+double mean_edge_length(const Mesh<Dim>& mesh, const MetricField<Dim>& field);
+
 /// limit_not_met with their number when frozen edges are longer than the threshold. Cost: linear in what is frozen.
 template <int Dim>
 Status check_frozen_edges(const Mesh<Dim>& mesh, const MetricField<Dim>& field, double threshold);
