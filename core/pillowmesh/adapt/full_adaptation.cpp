@@ -99,7 +99,7 @@ FullAdaptation::Next FullAdaptation::step(Mesh<2>& mesh, const MetricField<2>& f
   give_memory_back();
   // What the layers could not shorten the operators may have, and the other way round.
   const double limit = halvings_ > 0 ? kMuchTooLong * options_.threshold : options_.threshold * (1.0 + kLongestEdgeTolerance);
-  const bool met = longest_edge(mesh, target) <= limit;
+  const bool met = !has_longer_edge(mesh, target, limit);
   if (!met && mended_++ < kMostMended) return insert_layers(mesh);
   if (halvings_ > 0) return halve(mesh, field, iteration);
   outcome_ = met ? Status{} : Status::limit_not_met("edges longer than the threshold remain");

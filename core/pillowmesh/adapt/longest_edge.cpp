@@ -20,14 +20,27 @@ std::vector<double> lengths_of(std::span<const std::array<VertexId, 2>> edges, c
   return lengths;
 }
 
+template <int Dim>
+std::vector<std::array<VertexId, 2>> free_edges(const Mesh<Dim>& mesh) {
+  auto edges = unique_edges(mesh);
+  if (mesh.frozen) std::erase_if(edges, [&](const auto& e) { return is_frozen_edge(mesh, e[0], e[1]); });
+  return edges;
+}
+
 }  // namespace
 
 template <int Dim>
 double longest_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
-  auto edges = unique_edges(mesh);
-  if (mesh.frozen) std::erase_if(edges, [&](const auto& e) { return is_frozen_edge(mesh, e[0], e[1]); });
-  const auto lengths = lengths_of(edges, mesh, field);
+  const auto lengths = lengths_of<Dim>(free_edges(mesh), mesh, field);
   return lengths.empty() ? 0.0 : *std::max_element(lengths.begin(), lengths.end());
+}
+
+template <int Dim>
+bool has_longer_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field, double length) {
+  const auto edges = free_edges(mesh);
+  std::vector<unsigned char> longer(edges.size());
+  tag_long_edges<Dim>(field, mesh.points, edges, length, 0.0, longer);
+  return std::find(longer.begin(), longer.end(), 1) != longer.end();
 }
 
 template <int Dim>
@@ -51,6 +64,8 @@ Status check_frozen_edges(const Mesh<Dim>& mesh, const MetricField<Dim>& field, 
 
 template double longest_edge(const Mesh<2>&, const MetricField<2>&);
 template double longest_edge(const Mesh<3>&, const MetricField<3>&);
+template bool has_longer_edge(const Mesh<2>&, const MetricField<2>&, double);
+template bool has_longer_edge(const Mesh<3>&, const MetricField<3>&, double);
 template double mean_edge_length(const Mesh<2>&, const MetricField<2>&);
 template double mean_edge_length(const Mesh<3>&, const MetricField<3>&);
 template Status check_frozen_edges(const Mesh<2>&, const MetricField<2>&, double);

@@ -14,6 +14,11 @@ inline constexpr double kLongestEdgeTolerance = 1e-3;
 template <int Dim>
 double longest_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field);
 
+/// Whether an edge that is not frozen is longer than `length`. Cost: linear in the mesh; five evaluations of the metric for
+/// most edges.
+template <int Dim>
+bool has_longer_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field, double length);
+
 /// The mean metric length of the edges. Cost: linear in the mesh.
 template <int Dim>
 double mean_edge_length(const Mesh<Dim>& mesh, const MetricField<Dim>& field);

@@ -22,9 +22,9 @@ Budget budget_of(Effort effort, bool diced, int halvings) {
   const bool coarse = halvings > 0;
   switch (effort) {
     case Effort::fast:
-      if (coarse && diced) return {3, 0.25, 0.1, kNoRows, 0, 0, 3, 2, 1, kFewCells};
-      if (coarse) return {4, 0.3, 0.1, kNoRows, 1, 0, 3, 2, 1, kFewCells};
-      if (diced) return {0, 0, 0, kNoRows, 0, 0, 1, 0, 2, kFewCells};
+      if (coarse && diced) return {3, 0.25, 0.1, kNoRows, 0, 0, 1, 1, 1, kFewCells};
+      if (coarse) return {3, 0.3, 0.1, kNoRows, 1, 0, 2, 1, 1, kFewCells};
+      if (diced) return {0, 0, 0, kNoRows, 0, 0, 1, 0, 1, kFewCells};
       return {6, 0.3, 0.1, 3, 2, 0, 5, 4, 2, kFewCells};
     case Effort::normal:
       if (coarse) return {4, 0.4, 0.1, kNoRows, 4, 0, 5, 10, 20};
