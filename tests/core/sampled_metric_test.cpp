@@ -40,7 +40,7 @@ template <int Dim>
 Mesh<Dim> adapted(const char* name, const MetricField<Dim>& field, Method method) {
   AdaptOptions options;
   options.method = method;
-  options.effort = Effort::fast;
+  options.effort = Effort::normal;
   Adapter<Dim> adapter(mesh_of<Dim>(name), field, options);
   (void)adapter.run();
   return adapter.mesh();

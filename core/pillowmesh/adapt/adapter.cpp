@@ -206,7 +206,7 @@ struct Adapter<Dim>::State {
     return options.threshold < requested && short_enough();
   }
   [[nodiscard]] bool short_enough() const {
-    return !has_longer_edge(mesh, target, requested * (1.0 + kLongestEdgeTolerance));
+    return longest_edge(mesh, target) <= requested * (1.0 + kLongestEdgeTolerance);
   }
 
   /// Steps 2 and 3: form a layer, shrink it, connect it. Step 4 is the repetition until no tag is left.

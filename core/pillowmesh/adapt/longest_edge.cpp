@@ -35,12 +35,18 @@ double longest_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
   return lengths.empty() ? 0.0 : *std::max_element(lengths.begin(), lengths.end());
 }
 
-template <int Dim>
-bool has_longer_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field, double length) {
-  const auto edges = free_edges(mesh);
-  std::vector<unsigned char> longer(edges.size());
-  tag_long_edges<Dim>(field, mesh.points, edges, length, 0.0, longer);
-  return std::find(longer.begin(), longer.end(), 1) != longer.end();
+bool has_longer_edge(const Mesh<2>& mesh, const MetricField<2>& field, double length) {
+  // Five samples may be off by a few hundredths where the metric kinks within an edge.
+  constexpr double nearly = 0.8;
+  auto edges = free_edges(mesh);
+  std::vector<unsigned char> tagged(edges.size());
+  tag_long_edges<2>(field, mesh.points, edges, nearly * length, 0.0, tagged);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if (tagged[i] != 0) edges[count++] = edges[i];
+  edges.resize(count);
+  const auto lengths = lengths_of<2>(edges, mesh, field);
+  return std::any_of(lengths.begin(), lengths.end(), [&](double l) { return l > length; });
 }
 
 template <int Dim>
@@ -64,8 +70,6 @@ Status check_frozen_edges(const Mesh<Dim>& mesh, const MetricField<Dim>& field, 
 
 template double longest_edge(const Mesh<2>&, const MetricField<2>&);
 template double longest_edge(const Mesh<3>&, const MetricField<3>&);
-template bool has_longer_edge(const Mesh<2>&, const MetricField<2>&, double);
-template bool has_longer_edge(const Mesh<3>&, const MetricField<3>&, double);
 template double mean_edge_length(const Mesh<2>&, const MetricField<2>&);
 template double mean_edge_length(const Mesh<3>&, const MetricField<3>&);
 template Status check_frozen_edges(const Mesh<2>&, const MetricField<2>&, double);

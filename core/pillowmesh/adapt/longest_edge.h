@@ -14,10 +14,9 @@ inline constexpr double kLongestEdgeTolerance = 1e-3;
 template <int Dim>
 double longest_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field);
 
-/// Whether an edge that is not frozen is longer than `length`. Cost: linear in the mesh; five evaluations of the metric for
-/// most edges.
-template <int Dim>
-bool has_longer_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field, double length);
+/// Whether an edge that is not frozen is longer than `length`. Cost: linear in the mesh; for most edges five evaluations of the
+/// metric, where the longest takes seven.
+bool has_longer_edge(const Mesh<2>& mesh, const MetricField<2>& field, double length);
 
 /// The mean metric length of the edges. Cost: linear in the mesh.
 template <int Dim>
