@@ -131,10 +131,10 @@ TEST_CASE("effort normal inserts no more layers into a coarse mesh that has enou
 
 TEST_CASE("a coarse mesh that has lost too many cells is mended before it is diced") {
   const Case* c = find_case("circle2d");
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+  for (const std::uint64_t seed : {1, 14, 25, 37}) {
     INFO("seed " << seed);
     AdaptOptions options = with(Effort::fast);
-    options.seed = seed;  // with seed 2 some 80 moves for each cell if the finest mesh is mended alone
+    options.seed = seed;  // with 25 some 60 moves for each cell if the finest mesh is mended alone
     Adapter<2> adapter(std::get<Mesh<2>>(*parse_primitive(c->mesh)), formula(std::string(c->formula)), options);
     CHECK(adapter.run().ok());
     Mesh<2> out = adapter.mesh();
