@@ -361,8 +361,9 @@ pm_status pm_edge_lengths(pm_session* session, const double* points, uint32_t po
     const auto corners = as_cells<dim>(cells, cell_count);
     if (Status fits = check_cells<dim>(corners, point_count); !fits.ok()) return fits;
     const Mesh<dim> mesh = bare_mesh<dim>(as_points<dim>(points, point_count), corners);
+    const EdgeTable table(mesh, live_cells(mesh));
     std::vector<std::array<VertexId, 2>> edges;
-    EdgeTable(mesh, live_cells(mesh)).for_each([&](VertexId a, VertexId b) { edges.push_back({a, b}); });
+    for (Index e = 0; e < table.size(); ++e) edges.push_back(table[e]);
     session->doubles.resize(edges.size());
     edge_lengths<dim>(*p.field, mesh.points, edges, session->doubles);
     session->ints.clear();

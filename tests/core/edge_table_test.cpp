@@ -18,7 +18,7 @@ using Pairs = std::vector<std::array<VertexId, 2>>;
 
 Pairs pairs(const EdgeTable& table) {
   Pairs p;
-  table.for_each([&](VertexId a, VertexId b) { p.push_back({a, b}); });
+  for (Index e = 0; e < table.size(); ++e) p.push_back(table[e]);
   return p;
 }
 

@@ -16,18 +16,18 @@ EdgeTable::EdgeTable(const Mesh<Dim>& mesh, std::span<const CellId> cells) : fir
   // Sorted by counting: first_[v + 1] is the number of sides of v, then where the next of them goes.
   for_each_side([&](VertexId low, VertexId) { ++first_[low + 1]; });
   for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
-  higher_.resize(first_.back());
+  edges_.resize(first_.back());
   std::vector<Index> next(first_.begin(), first_.end() - 1);
-  for_each_side([&](VertexId low, VertexId high) { higher_[next[low]++] = high; });
+  for_each_side([&](VertexId low, VertexId high) { edges_[next[low]++] = {low, high}; });
   Index end = 0;
   for (std::size_t v = 0; v + 1 < first_.size(); ++v) {
-    const auto begin = higher_.begin() + first_[v], stop = higher_.begin() + first_[v + 1];
+    const auto begin = edges_.begin() + first_[v], stop = edges_.begin() + first_[v + 1];
     std::sort(begin, stop);
     first_[v] = end;
-    end = static_cast<Index>(std::copy(begin, std::unique(begin, stop), higher_.begin() + end) - higher_.begin());
+    end = static_cast<Index>(std::copy(begin, std::unique(begin, stop), edges_.begin() + end) - edges_.begin());
   }
   first_.back() = end;
-  higher_.resize(end);
+  edges_.resize(end);
 }
 
 template EdgeTable::EdgeTable(const Mesh<2>&, std::span<const CellId>);

@@ -1,6 +1,7 @@
 // The edges of cells, each once and numbered, found by their vertices.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -17,26 +18,21 @@ class EdgeTable {
   template <int Dim>
   EdgeTable(const Mesh<Dim>& mesh, std::span<const CellId> cells);
 
-  [[nodiscard]] Index size() const { return static_cast<Index>(higher_.size()); }
+  [[nodiscard]] Index size() const { return static_cast<Index>(edges_.size()); }
+  /// Lower vertex, higher vertex.
+  [[nodiscard]] const std::array<VertexId, 2>& operator[](Index e) const { return edges_[e]; }
 
   /// The number of the edge between two vertices. \pre there is one. Cost: the edges at the lower of them.
   [[nodiscard]] Index find(VertexId a, VertexId b) const {
     const auto [low, high] = std::minmax(a, b);
     Index e = first_[low];
-    while (higher_[e] != high) ++e;
+    while (edges_[e][1] != high) ++e;
     return e;
   }
 
-  /// visit(lower vertex, higher vertex) for all edges in their order.
-  template <class Visit>
-  void for_each(Visit&& visit) const {
-    for (VertexId low = 0; low + 1 < static_cast<VertexId>(first_.size()); ++low)
-      for (Index e = first_[low]; e < first_[low + 1]; ++e) visit(low, higher_[e]);
-  }
-
  private:
-  std::vector<Index> first_;      ///< edge with this lower vertex; one more at the end
-  std::vector<VertexId> higher_;  ///< of each edge
+  std::vector<Index> first_;  ///< edge with this lower vertex; one more at the end
+  std::vector<std::array<VertexId, 2>> edges_;
 };
 
 }  // namespace pillowmesh

@@ -45,8 +45,15 @@ double mean_misalignment(const Mesh<2>& mesh, const MetricField<2>& field, const
   std::int64_t count = 0;
   PointLanes<2> middles, vectors;
   TensorLanes<2> tensors;
-  int used = 0;
-  const auto add_all = [&] {
+  for (Index start = 0; start < edges.size(); start += kLanes) {
+    const int used = std::min(kLanes, edges.size() - start);
+    for (int i = 0; i < used; ++i) {
+      const auto& [a, b] = edges[start + i];
+      for (int d = 0; d < 2; ++d) {
+        middles[d][i] = 0.5 * (mesh.points[a][d] + mesh.points[b][d]);
+        vectors[d][i] = mesh.points[b][d] - mesh.points[a][d];
+      }
+    }
     field.evaluate(middles, used, tensors);
     for (int i = 0; i < used; ++i) {
       const Point<2> e(vectors[0][i], vectors[1][i]);
@@ -58,16 +65,7 @@ double mean_misalignment(const Mesh<2>& mesh, const MetricField<2>& field, const
       sum += 4.0 * (r * (t - r) - det) / (t * t - 4.0 * det);
       ++count;
     }
-    used = 0;
-  };
-  edges.for_each([&](VertexId a, VertexId b) {
-    for (int d = 0; d < 2; ++d) {
-      middles[d][used] = 0.5 * (mesh.points[a][d] + mesh.points[b][d]);
-      vectors[d][used] = mesh.points[b][d] - mesh.points[a][d];
-    }
-    if (++used == kLanes) add_all();
-  });
-  if (used > 0) add_all();
+  }
   return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 

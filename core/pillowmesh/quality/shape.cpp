@@ -188,22 +188,18 @@ double simplex_shape(const SimplexLengths<Dim>& lengths) {
 template <int Dim>
 EdgeIntegrals edge_integrals(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
                              const LineOptions& options) {
-  constexpr std::size_t chunk = 1024;
-  EdgeIntegrals e{EdgeTable(mesh, cells), {}};
-  e.along.resize(e.edges.size());
+  constexpr Index chunk = 1024;
+  EdgeIntegrals known{EdgeTable(mesh, cells), {}};
+  const Index count = known.edges.size();
+  known.along.resize(count);
   std::vector<Line<Dim>> lines;
-  std::size_t done = 0;
-  const auto integrate = [&] {
-    line_integrals<Dim>(field, lines, std::span(e.along).subspan(done, lines.size()), options);
-    done += lines.size();
+  for (Index start = 0; start < count; start += chunk) {
     lines.clear();
-  };
-  e.edges.for_each([&](VertexId a, VertexId b) {
-    lines.push_back({mesh.points[a], mesh.points[b]});
-    if (lines.size() == chunk) integrate();
-  });
-  integrate();
-  return e;
+    for (Index e = start; e < std::min(count, start + chunk); ++e)
+      lines.push_back({mesh.points[known.edges[e][0]], mesh.points[known.edges[e][1]]});
+    line_integrals<Dim>(field, lines, std::span(known.along).subspan(start, lines.size()), options);
+  }
+  return known;
 }
 
 template <int Dim>
