@@ -8,11 +8,11 @@
 # -Oz at the link keeps it from undoing the rest; the hot code keeps the speed of the -O2 that it is compiled with.
 string(JOIN "|" hot
   "refine/(balance|buffer_layer|edge_tags|hull|layer|tag_inheritance|untangle|vertex_copies)" "smooth/"
-  "metric/(background|program|field|length|volume)" "adapt/(outlook|tagging)" "mesh/(foot|slide|topology)")
+  "metric/(background|program|field|length_tags|volume)" "adapt/(outlook|tagging)" "mesh/(foot|slide|topology)")
 # The modules for hexahedra and for metrics have room for more. What is listed here is compiled once more for them: of an
 # inline function that was not inlined, the linker keeps one copy for all callers, and it may be one from a source
 # compiled with -Oz. (Making the metric of the portrait took 22 s without, most of it in one-line accessors.)
-string(JOIN "|" hot_in_3d "adapt/adapter" "mesh/validate" "quality/(jacobian|report\\.|shape)")
+string(JOIN "|" hot_in_3d "adapt/adapter" "mesh/validate" "metric/length\\." "quality/shape")
 string(JOIN "|" hot_in_metrics
   "metric/(gradation|image|intersection|nodal|portrait|simplex_tree|spectrum)")
 
