@@ -30,10 +30,12 @@ constexpr double kEnough = 0.9;
 /// How often sizes can be doubled until edges are about as long as they are asked to be; fast, until cells are about as many.
 int halvings_to_come(const Mesh<2>& mesh, const MetricField<2>& field, double ideal, const AdaptOptions& options) {
   if (mesh.frozen) return 0;
-  if (ideal > static_cast<double>(options.max_cells)) return 0;  // layers stop before that many
+  double l = mean_edge_length(mesh, field);
+  const auto most = static_cast<double>(options.max_cells);
+  if (!(ideal <= most && l * l * mesh.cell_count() <= most)) return 0;  // layers stop before that many
   const double many = options.effort == Effort::fast ? kFewTimes * mesh.cell_count() : ideal;
   int n = 0;
-  for (double l = mean_edge_length(mesh, field); l >= 2.0 || ideal > many; l *= 0.5, ideal *= 0.25) ++n;
+  for (; l >= 2.0 || ideal > many; l *= 0.5, ideal *= 0.25) ++n;
   return n;
 }
 
@@ -62,7 +64,7 @@ FullAdaptation::FullAdaptation(const Mesh<2>& mesh, const MetricField<2>& field,
       halvings_(halvings_to_come(mesh, field, ideal_cells_, options)) {}
 
 bool FullAdaptation::has_enough(const Mesh<2>& mesh) const {
-  // The last layers make the best rows; and fast there are few.
+  // Best takes the rows that the last layers make; fast begins so coarse that there are few.
   if (halvings_ == 0 || options_.effort != Effort::normal) return false;
   return mesh.cell_count() >= kEnough * ideal_cells_ / (coarser() * coarser());
 }
@@ -114,6 +116,7 @@ FullAdaptation::Next FullAdaptation::halve(Mesh<2>& mesh, const MetricField<2>& 
   compact(mesh);
   diced_ = 4 * static_cast<std::int64_t>(mesh.cell_count()) <= options_.max_cells && halve_sizes(mesh, field).ok();
   halvings_ = diced_ ? halvings_ - 1 : 0;
+  mended_ = 0;
   recorder_.dice(mesh, iteration);
   return diced_ ? Next::finer : insert_layers(mesh);
 }

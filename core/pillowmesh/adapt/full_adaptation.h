@@ -57,7 +57,7 @@ class FullAdaptation {
   int halvings_ = 0;    ///< how often the mesh is still to be diced in four
   bool diced_ = false;  ///< the mesh was made from one that had been adapted: it only has to be mended
   CellId cells_before_layers_ = 0;
-  int mended_ = 0;  ///< how often edges had become too long in the end
+  int mended_ = 0;  ///< how often edges of this mesh had become too long in the end
   std::unique_ptr<Background> background_;
   int background_coarser_ = 1;  ///< whose sizes it has
   std::unique_ptr<Schedule> schedule_;
