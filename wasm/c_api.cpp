@@ -67,14 +67,6 @@ Mesh<Dim> bare_mesh(std::span<const Point<Dim>> points, std::span<const Corners<
 }
 
 template <int Dim>
-std::vector<CellId> live_cells(const Mesh<Dim>& mesh) {
-  std::vector<CellId> live;
-  for (CellId c = 0; c < mesh.cell_count(); ++c)
-    if (mesh.alive(c)) live.push_back(c);
-  return live;
-}
-
-template <int Dim>
 Status check_cells(std::span<const Corners<Dim>> cells, std::uint32_t point_count) {
   for (std::size_t c = 0; c < cells.size(); ++c) {
     if (cells[c][0] == kNone) continue;

@@ -102,11 +102,13 @@ PM_API(pm_input) pm_status pm_input(pm_session* session);
 // Measures of any points and cells in the session's metric, e.g. of a viewer's copy at an earlier event.
 /// doubles: the metric tensor at each point, m11 m12 m22 [m13 m23 m33].
 PM_API(pm_tensors) pm_status pm_tensors(pm_session* session, const double* points, uint32_t point_count);
-/// doubles: the shape eta of each cell; NaN for a dead one.
+/// doubles: the shape eta of each cell, by lengths to 1e-5 where five samples tell of all that is between them; NaN for a
+/// dead one.
 PM_API(pm_cell_shapes)
 pm_status pm_cell_shapes(pm_session* session, const double* points, uint32_t point_count, const int32_t* cells,
                          uint32_t cell_count);
-/// ints: the edges of the cells, each once, as pairs of points, sorted; doubles: their metric lengths.
+/// ints: the edges of the cells, each once, as pairs of points, sorted; doubles: their metric lengths,
+/// to 1e-8.
 PM_API(pm_edge_lengths)
 pm_status pm_edge_lengths(pm_session* session, const double* points, uint32_t point_count, const int32_t* cells,
                           uint32_t cell_count);

@@ -3,6 +3,7 @@
 #include "pillowmesh/adapt/halving.h"
 #include "pillowmesh/adapt/longest_edge.h"
 #include "pillowmesh/mesh/compact.h"
+#include "pillowmesh/mesh/topology.h"
 #include "pillowmesh/metric/volume.h"
 
 #if defined(__GLIBC__)
@@ -17,14 +18,14 @@ constexpr int kMostMended = 2;
 /// Times the threshold: a coarse mesh with a longer edge than that has lost cells that finer ones would not find again.
 constexpr double kMuchTooLong = 1.5;
 
-/// The coarsest mesh is to have less than so many times the cells that are given, when fast. Layers start it well, with rows
-/// that follow the metric, but with several times the cells it is to have, which takes time: circle2d, 13 moves a cell from
-/// about as many cells as were given, cv .16; 22 from four times as many, cv .14.
+/// Effort fast: the coarsest mesh is to have less than so many times the cells that are given. Layers start one that is to have
+/// more well, with rows that follow the metric, but make several times those cells, and to take them out takes time: circle2d, 13
+/// moves a cell from about as many cells as were given, cv .16; 22 from four times as many, cv .14.
 constexpr double kFewTimes = 2.0;
 
-/// Share of the cells that a coarse mesh is to have from which on there are enough: where layers go through the whole mesh for
-/// a few long edges the next would make several times as many, which the search takes long to remove (shock2d, normal: 120
-/// moves a cell for 150).
+/// Effort normal: a coarse mesh with this share of the cells that it is to have needs no more layers. Where these go through the
+/// whole mesh for a few long edges, the next would make several times as many cells, and to take them out takes time (shock2d:
+/// 120 moves a cell for 150).
 constexpr double kEnough = 0.9;
 
 /// How often sizes can be doubled until edges are about as long as they are asked to be; fast, until cells are about as many.
@@ -39,7 +40,8 @@ int halvings_to_come(const Mesh<2>& mesh, const MetricField<2>& field, double id
   return n;
 }
 
-/// Where lengths scatter by a tenth, an error of a fiftieth does not show: circle2d and shock2d are as good with a quarter of it.
+/// Where lengths scatter by a tenth, an error of a fiftieth does not show: circle2d and shock2d are no better with a quarter of
+/// that error.
 BackgroundOptions background_options(Effort effort) {
   if (effort == Effort::best) return {.tolerance = 5e-3, .smallest = 0.5};
   return {.tolerance = 2e-2, .smallest = 1.0};
@@ -60,13 +62,13 @@ FullAdaptation::FullAdaptation(const Mesh<2>& mesh, const MetricField<2>& field,
     : options_(options),
       recorder_(recorder),
       operations_(operations),
-      ideal_cells_(complexity(mesh, field, {.tolerance = 1e-2})),
+      ideal_cells_(mesh.frozen ? 0.0 : complexity(mesh, field, {.tolerance = 1e-2})),
       halvings_(halvings_to_come(mesh, field, ideal_cells_, options)) {}
 
 bool FullAdaptation::has_enough(const Mesh<2>& mesh) const {
   // Best takes the rows that the last layers make; fast begins so coarse that there are few.
   if (halvings_ == 0 || options_.effort != Effort::normal) return false;
-  return mesh.cell_count() >= kEnough * ideal_cells_ / (coarser() * coarser());
+  return static_cast<double>(live_cells(mesh).size()) >= kEnough * ideal_cells_ / (coarser() * coarser());
 }
 
 void FullAdaptation::begin(const Mesh<2>& mesh) {
@@ -98,7 +100,6 @@ FullAdaptation::Next FullAdaptation::step(Mesh<2>& mesh, const MetricField<2>& f
   activity_ = schedule_->activity();
   if (more) return Next::step;
   schedule_.reset();
-  give_memory_back();
   // What the layers could not shorten the operators may have, and the other way round.
   const double limit = halvings_ > 0 ? kMuchTooLong * options_.threshold : options_.threshold * (1.0 + kLongestEdgeTolerance);
   const bool met = !has_longer_edge(mesh, target, limit);
@@ -112,6 +113,7 @@ FullAdaptation::Next FullAdaptation::step(Mesh<2>& mesh, const MetricField<2>& f
 /// Every cell in four, for sizes half as large. What is too long then is relocated first: layers through cells that are out
 /// of shape would go everywhere.
 FullAdaptation::Next FullAdaptation::halve(Mesh<2>& mesh, const MetricField<2>& field, int iteration) {
+  give_memory_back();
   recorder_.before_dice(mesh);
   compact(mesh);
   diced_ = 4 * static_cast<std::int64_t>(mesh.cell_count()) <= options_.max_cells && halve_sizes(mesh, field).ok();

@@ -53,7 +53,7 @@ class FullAdaptation {
   const AdaptOptions& options_;
   Recorder<2>& recorder_;
   std::map<std::string, std::int64_t>& operations_;
-  double ideal_cells_;  ///< of the finest mesh
+  double ideal_cells_;  ///< of the finest mesh; 0 where coarse ones do not come into question
   int halvings_ = 0;    ///< how often the mesh is still to be diced in four
   bool diced_ = false;  ///< the mesh was made from one that had been adapted: it only has to be mended
   CellId cells_before_layers_ = 0;

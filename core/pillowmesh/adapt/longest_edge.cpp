@@ -36,7 +36,7 @@ double longest_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
 }
 
 bool has_longer_edge(const Mesh<2>& mesh, const MetricField<2>& field, double length) {
-  // Five samples may be off by a few hundredths where the metric kinks within an edge.
+  // By chance, the rules for five samples agree on a length that is off by a few hundredths.
   constexpr double nearly = 0.8;
   auto edges = free_edges(mesh);
   std::vector<unsigned char> tagged(edges.size());

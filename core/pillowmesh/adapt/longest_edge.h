@@ -15,7 +15,7 @@ template <int Dim>
 double longest_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field);
 
 /// Whether an edge that is not frozen is longer than `length`. Cost: linear in the mesh; for most edges five evaluations of the
-/// metric, where the longest takes seven.
+/// metric, where `longest_edge` takes seven.
 bool has_longer_edge(const Mesh<2>& mesh, const MetricField<2>& field, double length);
 
 /// The mean metric length of the edges. Cost: linear in the mesh.

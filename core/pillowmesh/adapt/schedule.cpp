@@ -28,7 +28,7 @@ Budget budget_of(Effort effort, bool diced, int halvings) {
       return {6, 0.3, 0.1, 3, 2, 0, 5, 4, 2, kFewCells};
     case Effort::normal:
       if (coarse) return {4, 0.4, 0.1, kNoRows, 4, 0, 5, 10, 20};
-      if (diced) return {34, 0.31, 0.13, kNoRows, 0, 1, 5, 0, 4, kSomeCells};
+      if (diced) return {34, 0.31, 0.13, kNoRows, 0, 1, 5, 0, 4};
       return {30, 0.5, 0.06, 8, 4, 2, 5, 20, 20};
     case Effort::best: break;
   }

@@ -28,6 +28,7 @@ EdgeTable::EdgeTable(const Mesh<Dim>& mesh, std::span<const CellId> cells) : fir
   }
   first_.back() = end;
   edges_.resize(end);
+  edges_.shrink_to_fit();  // each edge came once for each of its cells
 }
 
 template EdgeTable::EdgeTable(const Mesh<2>&, std::span<const CellId>);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <span>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace pillowmesh {
 class EdgeTable {
  public:
   EdgeTable() = default;
-  /// The edges of these cells of the mesh. Cost: linear.
+  /// The edges of these cells of the mesh. \pre they are alive, and have less than 2^31 edges all told. Cost: the cells and the
+  /// points of the mesh.
   template <int Dim>
   EdgeTable(const Mesh<Dim>& mesh, std::span<const CellId> cells);
 
@@ -26,7 +28,7 @@ class EdgeTable {
   [[nodiscard]] Index find(VertexId a, VertexId b) const {
     const auto [low, high] = std::minmax(a, b);
     Index e = first_[low];
-    while (edges_[e][1] != high) ++e;
+    while (edges_[e][1] != high) assert(e + 1 < first_[low + 1]), ++e;
     return e;
   }
 

@@ -141,6 +141,16 @@ std::vector<std::array<VertexId, 2>> unique_edges(const Mesh<Dim>& mesh) {
   return edges;
 }
 
+template <int Dim>
+std::vector<CellId> live_cells(const Mesh<Dim>& mesh) {
+  std::vector<CellId> cells;
+  for (CellId c = 0; c < mesh.cell_count(); ++c)
+    if (mesh.alive(c)) cells.push_back(c);
+  return cells;
+}
+
+template std::vector<CellId> live_cells(const Mesh<2>&);
+template std::vector<CellId> live_cells(const Mesh<3>&);
 template Status connect_cells(Mesh<2>&);
 template Status connect_cells(Mesh<3>&);
 template void vertex_star(const Mesh<2>&, VertexId, std::vector<CellCorner>&);

@@ -17,6 +17,10 @@ namespace pillowmesh {
 template <int Dim>
 Status connect_cells(Mesh<Dim>& mesh);
 
+/// All cells that are alive, in ascending order. Cost: linear.
+template <int Dim>
+std::vector<CellId> live_cells(const Mesh<Dim>& mesh);
+
 /// Local corner of cell c that is vertex v, or -1.
 template <int Dim>
 inline int corner_of(const Mesh<Dim>& mesh, CellId c, VertexId v) {

@@ -158,7 +158,7 @@ void Background::make_children(Index first, double x, double y, int depth) {
 void Background::halve_sizes(MetricField<2> field) {
   field_ = std::move(field);
   // Rough leaves make four each, others are divided here and there. To copy them now is cheaper than later, when a finer mesh
-  // is in memory, too; what stays unused takes none.
+  // is in memory, too. Where memory is given out by pages what stays unused takes none.
   constexpr std::size_t times = 4;
   leaves_.reserve(times * leaves_.size());
   nodes_.reserve(times * nodes_.size());

@@ -10,6 +10,12 @@
 
 namespace pillowmesh {
 
+/// sqrt(det M) in lane i. Rounding may leave a tiny negative number; what is not a number stays so.
+inline double density(const TensorLanes<2>& m, int i) {
+  const double det = m[0][i] * m[2][i] - m[1][i] * m[1][i];
+  return std::sqrt(det < 0.0 ? 0.0 : det);
+}
+
 /// |dP/dt| in the metric, and sqrt(det M) if asked for, at even steps of t along lines.
 template <int Dim, bool WithDensity = false>
 class EvenSamples {
@@ -63,10 +69,7 @@ class EvenSamples {
     speeds_.insert(speeds_.end(), values.begin(), values.begin() + used_);
     if constexpr (WithDensity) {
       static_assert(Dim == 2);
-      for (int i = 0; i < kLanes; ++i) {
-        const double det = m[0][i] * m[2][i] - m[1][i] * m[1][i];
-        values[i] = std::sqrt(det < 0.0 ? 0.0 : det);
-      }
+      for (int i = 0; i < kLanes; ++i) values[i] = density(m, i);
       densities_.insert(densities_.end(), values.begin(), values.begin() + used_);
     }
     used_ = 0;

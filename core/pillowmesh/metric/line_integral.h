@@ -26,13 +26,14 @@ struct LineOptions {
   double panel = 0.0;
   /// The same of densities.
   double density_tolerance = 1e-3;
-  /// Halvings at the most; reached only at jumps of the metric.
+  /// Halvings at the most, but for one; reached only at jumps of the metric.
   int max_depth = 30;
 };
 
 /// Boole's rule on panels, halved where it differs from Simpson's, or much from the trapezoids'; halves keep the samples. The
-/// error is much less than the tolerance where the metric is smooth, at kinks and jumps some times that. The same bits for both directions of a line, alone and among others. Not a number where the metric is not. Memory does
-/// not grow with the number of lines. Cost: 5 evaluations of the metric where it is smooth, 4 for each halving.
+/// error is much less than the tolerance where the metric is smooth, at kinks and jumps some times that. The same bits for
+/// both directions of a line, alone and among others. Not a number where the metric is not. Memory does not grow with the
+/// number of lines. Cost: 5 evaluations of the metric where it is smooth, 4 for each halving.
 /// \pre integrals.size() == lines.size()
 template <int Dim>
 void line_integrals(const MetricField<Dim>& field, std::span<const Line<Dim>> lines, std::span<LineIntegral> integrals,

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "pillowmesh/metric/even_samples.h"
+
 namespace pillowmesh {
 namespace {
 
@@ -115,13 +117,10 @@ class AreaIntegrator {
         }
       }
       field_.evaluate(points_, kPoints * n, tensors_);
-      Lanes density;
-      for (int i = 0; i < kPoints * n; ++i) {
-        const double det = tensors_[0][i] * tensors_[2][i] - tensors_[1][i] * tensors_[1][i];
-        density[i] = std::sqrt(det < 0.0 ? 0.0 : det);
-      }
+      Lanes densities;
+      for (int i = 0; i < kPoints * n; ++i) densities[i] = density(tensors_, i);
       for (int i = 0; i < n; ++i) {
-        const double* f = &density[i];
+        const double* f = &densities[i];
         const double near = f[n] + f[2 * n] + f[3 * n], far = f[4 * n] + f[5 * n] + f[6 * n];
         const std::array<Point<2>, 3>& p = triangles_[start + i].p;
         const double area = 0.5 * cross(p[1] - p[0], p[2] - p[0]);
@@ -203,7 +202,7 @@ void quad_areas(const MetricField<2>& field, std::span<const CornerPoints<2>> qu
   } rough, high;
   PointLanes<2> points{};
   TensorLanes<2> tensors{};
-  Lanes density;
+  Lanes densities;
   for (std::size_t start = 0; start < quads.size(); start += batch) {
     const std::size_t count = std::min(batch, quads.size() - start);
     for (std::size_t i = 0; i < count; ++i) {
@@ -212,12 +211,9 @@ void quad_areas(const MetricField<2>& field, std::span<const CornerPoints<2>> qu
         for (int d = 0; d < 2; ++d) points[d][4 * i + k] = (q[k][d] + q[kNext[k][0]][d] + q[kNext[k][1]][d]) / 3;
     }
     field.evaluate(points, static_cast<int>(4 * count), tensors);
-    for (int i = 0; i < kLanes; ++i) {
-      const double det = tensors[0][i] * tensors[2][i] - tensors[1][i] * tensors[1][i];
-      density[i] = std::sqrt(det < 0.0 ? 0.0 : det);
-    }
+    for (int i = 0; i < kLanes; ++i) densities[i] = density(tensors, i);
     for (std::size_t i = 0; i < count; ++i) {
-      const Found found = areas_by_lines(quads[start + i], lines[start + i], &density[4 * i], areas[start + i], options);
+      const Found found = areas_by_lines(quads[start + i], lines[start + i], &densities[4 * i], areas[start + i], options);
       if (found == Found::good) continue;
       Again& again = found == Found::rough ? rough : high;
       again.quads.push_back(quads[start + i]);

@@ -43,24 +43,22 @@ Statistics length_statistics(std::span<const LineIntegral> integrals) {
 double mean_misalignment(const Mesh<2>& mesh, const MetricField<2>& field, const EdgeTable& edges) {
   double sum = 0.0;
   std::int64_t count = 0;
-  PointLanes<2> middles, vectors;
+  PointLanes<2> middles;
   TensorLanes<2> tensors;
   for (Index start = 0; start < edges.size(); start += kLanes) {
     const int used = std::min(kLanes, edges.size() - start);
     for (int i = 0; i < used; ++i) {
       const auto& [a, b] = edges[start + i];
-      for (int d = 0; d < 2; ++d) {
-        middles[d][i] = 0.5 * (mesh.points[a][d] + mesh.points[b][d]);
-        vectors[d][i] = mesh.points[b][d] - mesh.points[a][d];
-      }
+      for (int d = 0; d < 2; ++d) middles[d][i] = 0.5 * (mesh.points[a][d] + mesh.points[b][d]);
     }
     field.evaluate(middles, used, tensors);
     for (int i = 0; i < used; ++i) {
-      const Point<2> e(vectors[0][i], vectors[1][i]);
+      const auto& [a, b] = edges[start + i];
+      const Point<2> e = mesh.points[b] - mesh.points[a];
       const SymTensor<2> M{{tensors[0][i], tensors[1][i], tensors[2][i]}};
       const double t = M.m[0] + M.m[2], det = determinant(M);
       // The eigenvalues' ratio is above 2^2 where t^2 / det is above (4 + 1)^2 / 4.
-      if (!(t * t > 6.25 * det)) continue;
+      if (!(t * t > 6.25 * det) || e.squaredNorm() == 0.0) continue;
       const double r = det * e.squaredNorm() / dot(M, e, e);
       sum += 4.0 * (r * (t - r) - det) / (t * t - 4.0 * det);
       ++count;
@@ -70,8 +68,8 @@ double mean_misalignment(const Mesh<2>& mesh, const MetricField<2>& field, const
 }
 
 template <int Dim>
-void measure_cells(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells, const LineOptions& options,
-                   const EdgeIntegrals& edges, Report& report) {
+void measure_cells(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
+                   const LineOptions& options, const EdgeIntegrals& edges, Report& report) {
   report.cells = static_cast<Index>(cells.size());
   std::vector<double> values(cells.size());
   {
@@ -99,9 +97,7 @@ Report measure(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
   if (!walkable<Dim>(defects)) return report;
 
   const LineOptions options{.panel = default_panel<Dim>(mesh.points)};
-  std::vector<CellId> cells;
-  for (CellId c = 0; c < mesh.cell_count(); ++c)
-    if (mesh.alive(c)) cells.push_back(c);
+  const std::vector<CellId> cells = live_cells(mesh);
   const EdgeIntegrals edges = edge_integrals<Dim>(mesh, field, cells, options);
   report.edges = edges.edges.size();
   report.edge_length = length_statistics(edges.along);

@@ -73,9 +73,7 @@ class Polisher {
   /// Looks at all cells, roughly, and closely at those that may be poor. \return the number of all
   Index find_poor() {
     constexpr double roughly = 1.5;
-    std::vector<CellId> cells;
-    for (CellId c = 0; c < mesh_.cell_count(); ++c)
-      if (mesh_.alive(c)) cells.push_back(c);
+    const std::vector<CellId> cells = live_cells(mesh_);
     std::vector<double> flat(cells.size()), integral(cells.size());
     cell_shapes<3>(mesh_, field_, cells, flat, integral, {.tolerance = 1e-3});
     for (std::size_t i = 0; i < cells.size(); ++i)
