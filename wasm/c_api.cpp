@@ -18,6 +18,7 @@
 #include "pillowmesh/mesh/boundary.h"
 #include "pillowmesh/mesh/edge_table.h"
 #include "pillowmesh/mesh/primitives.h"
+#include "pillowmesh/mesh/topology.h"
 #include "pillowmesh/metric/field.h"
 #include "pillowmesh/metric/gallery.h"
 #include "pillowmesh/metric/length.h"
