@@ -105,7 +105,7 @@ TEST_CASE("edges that have been integrated change nothing but the work") {
   const auto field = *MetricField<3>::from_formula("h = 0.1 + abs(x - 0.4)");
   std::vector<CellId> cells(mesh.cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c) cells[c] = static_cast<CellId>(c);
-  EdgeIntegrals known = edge_integrals<3>(mesh, field, cells, {});
+  EdgeIntegrals<3> known = edge_integrals<3>(mesh, field, cells, {});
   std::vector<double> without(cells.size()), with(cells.size());
   cell_shapes<3>(mesh, field, cells, without, {});
   cell_shapes<3>(mesh, field, cells, with, {}, {}, &known);

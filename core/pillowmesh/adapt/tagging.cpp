@@ -22,8 +22,8 @@ void sort_marked(std::vector<CellId>& cells, const std::vector<std::uint8_t>& ma
 }  // namespace
 
 template <int Dim>
-Tagging<Dim>::Tagging(const Mesh<Dim>& mesh, double threshold)
-    : threshold_(threshold), panel_(default_panel<Dim>(mesh.points)) {
+Tagging<Dim>::Tagging(const Mesh<Dim>& mesh, double threshold, int coarser)
+    : threshold_(threshold), panel_(coarser * default_panel<Dim>(mesh.points)) {
   look_at_all(mesh);
 }
 

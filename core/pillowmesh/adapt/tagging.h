@@ -13,7 +13,8 @@ template <int Dim>
 class Tagging {
  public:
   /// Every cell is looked at first. `threshold`: metric length above which an edge is tagged.
-  Tagging(const Mesh<Dim>& mesh, double threshold);
+  /// \param coarser how many times as long as in the end edges are to be for now: as much narrower features do not count yet
+  Tagging(const Mesh<Dim>& mesh, double threshold, int coarser = 1);
 
   /// The edges of this cell are to be measured again.
   void look_again(CellId c);

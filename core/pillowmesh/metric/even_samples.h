@@ -10,10 +10,22 @@
 
 namespace pillowmesh {
 
-/// sqrt(det M) in lane i. Rounding may leave a tiny negative number; what is not a number stays so.
-inline double density(const TensorLanes<2>& m, int i) {
-  const double det = m[0][i] * m[2][i] - m[1][i] * m[1][i];
+// Rounding may leave tiny negative squares and determinants; what is not a number stays so.
+
+/// sqrt(det M) of its entries.
+inline double density(double m11, double m12, double m22) {
+  const double det = m11 * m22 - m12 * m12;
   return std::sqrt(det < 0.0 ? 0.0 : det);
+}
+/// In lane i.
+inline double density(const TensorLanes<2>& m, int i) { return density(m[0][i], m[1][i], m[2][i]); }
+
+/// |v| in the metric. \param m, v entries of M as they are packed, and of v, by their number
+template <int Dim, class Entries, class Coordinates>
+inline double speed(const Entries& m, const Coordinates& v) {
+  double square = m(0) * v(0) * v(0) + 2.0 * m(1) * v(0) * v(1) + m(2) * v(1) * v(1);
+  if constexpr (Dim == 3) square += 2.0 * v(2) * (m(3) * v(0) + m(4) * v(1)) + m(5) * v(2) * v(2);
+  return std::sqrt(square < 0.0 ? 0.0 : square);
 }
 
 /// |dP/dt| in the metric, and sqrt(det M) if asked for, at even steps of t along lines.
@@ -56,20 +68,13 @@ class EvenSamples {
  private:
   void evaluate() {
     field_.evaluate(points_, used_, tensors_);
-    const auto& m = tensors_;
-    const auto& v = vector_;
     Lanes values;
-    for (int i = 0; i < kLanes; ++i) {
-      double square = m[0][i] * v[0][i] * v[0][i] + 2.0 * m[1][i] * v[0][i] * v[1][i] + m[2][i] * v[1][i] * v[1][i];
-      if constexpr (Dim == 3)
-        square += 2.0 * v[2][i] * (m[3][i] * v[0][i] + m[4][i] * v[1][i]) + m[5][i] * v[2][i] * v[2][i];
-      // Rounding may leave a tiny negative number; what is not a number stays so.
-      values[i] = std::sqrt(square < 0.0 ? 0.0 : square);
-    }
+    for (int i = 0; i < kLanes; ++i)
+      values[i] = speed<Dim>([&](int k) { return tensors_[k][i]; }, [&](int d) { return vector_[d][i]; });
     speeds_.insert(speeds_.end(), values.begin(), values.begin() + used_);
     if constexpr (WithDensity) {
       static_assert(Dim == 2);
-      for (int i = 0; i < kLanes; ++i) values[i] = density(m, i);
+      for (int i = 0; i < kLanes; ++i) values[i] = density(tensors_, i);
       densities_.insert(densities_.end(), values.begin(), values.begin() + used_);
     }
     used_ = 0;

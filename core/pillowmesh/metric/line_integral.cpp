@@ -45,6 +45,7 @@ class LineIntegrator {
   /// A line from its end with the smaller coordinates, so that integrals do not depend on the direction.
   struct Open {
     Point<Dim> origin, vector;
+    const SymTensor<Dim> *at_origin, *at_end;  // null: among the samples
     int panels;
     double allowed_length, allowed_density;  // error of a piece
   };
@@ -58,19 +59,51 @@ class LineIntegrator {
   void add(const Line<Dim>& line) {
     const auto* a = &line.from;
     const auto* b = &line.to;
-    if (!std::lexicographical_compare(a->data(), a->data() + Dim, b->data(), b->data() + Dim)) std::swap(a, b);
+    auto at_a = line.at_from, at_b = line.at_to;
+    if (!std::lexicographical_compare(a->data(), a->data() + Dim, b->data(), b->data() + Dim)) {
+      std::swap(a, b);
+      std::swap(at_a, at_b);
+    }
     const Point<Dim> vector = *b - *a;
     const int panels = panel_count(std::sqrt(vector.squaredNorm()), options_.panel);
-    samples_.add(*a, vector, 0.0, 0.25 / panels, 4 * panels + 1);
-    open_.push_back({*a, vector, panels, 0.0, 0.0});
+    const int known = at_a != nullptr ? 1 : 0;  // at each end
+    const double step = 0.25 / panels;
+    samples_.add(*a, vector, known * step, step, 4 * panels + 1 - 2 * known);
+    open_.push_back({*a, vector, at_a, at_b, panels, 0.0, 0.0});
+  }
+
+  /// All samples of a line whose ends are known. The parameters are those between the ends.
+  void join(const Open& line, const double* speed_inside, const double* density_inside) {
+    const std::size_t inside = 4 * static_cast<std::size_t>(line.panels) - 1;
+    const auto fill = [&](std::vector<double>& all, const double* inner, const auto& at) {
+      all.resize(inside + 2);
+      all.front() = at(*line.at_origin);
+      std::copy_n(inner, inside, all.begin() + 1);
+      all.back() = at(*line.at_end);
+    };
+    fill(joined_speeds_, speed_inside, [&](const SymTensor<Dim>& M) {
+      return speed<Dim>([&](int k) { return M.m[k]; }, [&](int d) { return line.vector[d]; });
+    });
+    if constexpr (kDensity)
+      fill(joined_densities_, density_inside,
+           [](const SymTensor<Dim>& M) { return density(M.m[0], M.m[1], M.m[2]); });
   }
 
   void begin(std::span<LineIntegral> integrals) {
-    const double *f = samples_.speeds(), *g = kDensity ? samples_.densities() : nullptr;
+    const double *next_speed = samples_.speeds(), *next_density = kDensity ? samples_.densities() : nullptr;
     pieces_.clear();
     for (std::size_t i = 0; i < open_.size(); ++i) {
       Open& line = open_[i];
       const int last = 4 * line.panels;
+      const double *f = next_speed, *g = next_density;
+      const bool known = line.at_origin != nullptr;
+      if (known) {
+        join(line, f, g);
+        f = joined_speeds_.data();
+        if constexpr (kDensity) g = joined_densities_.data();
+      }
+      next_speed += last + (known ? -1 : 1);
+      if constexpr (kDensity) next_density += last + (known ? -1 : 1);
       double length = 0.0, density = 0.0;
       for (int k = 0; k < last; k += 4) {
         length += EvenMeans(f + k).boole;
@@ -88,8 +121,6 @@ class LineIntegrator {
         std::copy_n(f + k, 5, piece.speed.begin());
         if constexpr (kDensity) std::copy_n(g + k, 5, piece.density.begin());
       }
-      f += last + 1;
-      if constexpr (kDensity) g += last + 1;
     }
   }
 
@@ -137,6 +168,7 @@ class LineIntegrator {
   LineOptions options_;
   std::vector<Open> open_;
   std::vector<Piece> pieces_, whole_;
+  std::vector<double> joined_speeds_, joined_densities_;
 };
 
 }  // namespace

@@ -69,7 +69,7 @@ double mean_misalignment(const Mesh<2>& mesh, const MetricField<2>& field, const
 
 template <int Dim>
 void measure_cells(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
-                   const LineOptions& options, const EdgeIntegrals& edges, Report& report) {
+                   const LineOptions& options, const EdgeIntegrals<Dim>& edges, Report& report) {
   report.cells = static_cast<Index>(cells.size());
   std::vector<double> values(cells.size());
   {
@@ -98,7 +98,7 @@ Report measure(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
 
   const LineOptions options{.panel = default_panel<Dim>(mesh.points)};
   const std::vector<CellId> cells = live_cells(mesh);
-  const EdgeIntegrals edges = edge_integrals<Dim>(mesh, field, cells, options);
+  const EdgeIntegrals<Dim> edges = edge_integrals<Dim>(mesh, field, cells, options);
   report.edges = edges.edges.size();
   report.edge_length = length_statistics(edges.along);
   measure_cells<Dim>(mesh, field, cells, options, edges, report);

@@ -12,13 +12,44 @@
 namespace pillowmesh {
 namespace {
 
+template <int Dim>
+Line<Dim> line_between(const Mesh<Dim>& mesh, const std::vector<SymTensor<Dim>>& at_vertices, VertexId a, VertexId b) {
+  return {mesh.points[a], mesh.points[b], &at_vertices[a], &at_vertices[b]};
+}
+
+// The metric at the vertices of cells.
+template <int Dim>
+std::vector<SymTensor<Dim>> metric_at_vertices(const Mesh<Dim>& mesh, const MetricField<Dim>& field,
+                                               std::span<const CellId> cells) {
+  std::vector<SymTensor<Dim>> tensors(mesh.points.size());
+  std::vector<unsigned char> seen(mesh.points.size(), 0);
+  std::vector<VertexId> vertices;
+  for (const CellId c : cells)
+    for (const VertexId v : mesh.cells[c])
+      if (seen[v] == 0) {
+        seen[v] = 1;
+        vertices.push_back(v);
+      }
+  PointLanes<Dim> points{};
+  TensorLanes<Dim> found{};
+  for (std::size_t start = 0; start < vertices.size(); start += kLanes) {
+    const std::size_t count = std::min<std::size_t>(kLanes, vertices.size() - start);
+    for (std::size_t i = 0; i < count; ++i)
+      for (int d = 0; d < Dim; ++d) points[d][i] = mesh.points[vertices[start + i]][d];
+    field.evaluate(points, static_cast<int>(count), found);
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t k = 0; k < found.size(); ++k) tensors[vertices[start + i]].m[k] = found[k][i];
+  }
+  return tensors;
+}
+
 // Integrals along all edges of all corner simplices of a chunk of cells: those of the cells are known, diagonals are new.
 template <int Dim>
 class SimplexEdges {
  public:
   static constexpr SimplexPairs<Dim> kPairs{};
 
-  explicit SimplexEdges(const EdgeIntegrals& known) : known_(known) {}
+  explicit SimplexEdges(const EdgeIntegrals<Dim>& known) : known_(known) {}
 
   void measure(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
                const LineOptions& options) {
@@ -33,7 +64,7 @@ class SimplexEdges {
           place = known_.edges.find(a, b);
         } else if constexpr (Dim == 2) {
           place = static_cast<Index>(lines_.size());
-          lines_.push_back({mesh.points[a], mesh.points[b]});
+          lines_.push_back(line_between(mesh, known_.at_vertices, a, b));
         } else {
           keys_.push_back({key(a, b), i * kPerCell + j});
         }
@@ -44,14 +75,15 @@ class SimplexEdges {
       std::sort(keys_.begin(), keys_.end());
       for (std::size_t i = 0; i < keys_.size(); ++i) {
         if (i == 0 || keys_[i][0] != keys_[i - 1][0])
-          lines_.push_back({mesh.points[keys_[i][0] >> 32], mesh.points[keys_[i][0] & 0xffffffffu]});
+          lines_.push_back(line_between(mesh, known_.at_vertices, static_cast<VertexId>(keys_[i][0] >> 32),
+                                        static_cast<VertexId>(keys_[i][0] & 0xffffffffu)));
         place_[keys_[i][1]] = static_cast<Index>(lines_.size()) - 1;
       }
     }
     diagonals_.resize(lines_.size());
     // Features as narrow as a panel are found by the edges.
     LineOptions coarser = options;
-    coarser.panel *= 2.0;
+    coarser.panel *= 4.0;
     line_integrals<Dim>(field, lines_, diagonals_, coarser);
   }
 
@@ -76,7 +108,7 @@ class SimplexEdges {
     return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high);
   }
 
-  const EdgeIntegrals& known_;
+  const EdgeIntegrals<Dim>& known_;
   std::vector<Index> place_;                        // of each pair of each cell, among the edges or the diagonals
   std::vector<std::array<std::uint64_t, 2>> keys_;  // vertex pair, place in place_
   std::vector<Line<Dim>> lines_;                    // diagonals
@@ -112,7 +144,7 @@ class SimplexVolumes;
 template <>
 class SimplexVolumes<2> {
  public:
-  SimplexVolumes(const MetricField<2>& field, double panel) : field_(field), options_(VolumeOptions::for_panel(2, panel, 1e-3)) {}
+  SimplexVolumes(const MetricField<2>& field, double panel) : field_(field), options_(VolumeOptions::for_panel(2, 2.0 * panel, 3e-3)) {}
 
   void measure(const Mesh<2>& mesh, std::span<const CellId> cells, const SimplexEdges<2>& edges) {
     quads_.resize(cells.size());
@@ -186,17 +218,17 @@ double simplex_shape(const SimplexLengths<Dim>& lengths) {
 }
 
 template <int Dim>
-EdgeIntegrals edge_integrals(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
+EdgeIntegrals<Dim> edge_integrals(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
                              const LineOptions& options) {
   constexpr Index chunk = 1024;
-  EdgeIntegrals known{EdgeTable(mesh, cells), {}};
+  EdgeIntegrals<Dim> known{EdgeTable(mesh, cells), {}, metric_at_vertices(mesh, field, cells)};
   const Index count = known.edges.size();
   known.along.resize(count);
   std::vector<Line<Dim>> lines;
   for (Index start = 0; start < count; start += chunk) {
     lines.clear();
     for (Index e = start; e < std::min(count, start + chunk); ++e)
-      lines.push_back({mesh.points[known.edges[e][0]], mesh.points[known.edges[e][1]]});
+      lines.push_back(line_between(mesh, known.at_vertices, known.edges[e][0], known.edges[e][1]));
     line_integrals<Dim>(field, lines, std::span(known.along).subspan(start, lines.size()), options);
   }
   return known;
@@ -205,8 +237,8 @@ EdgeIntegrals edge_integrals(const Mesh<Dim>& mesh, const MetricField<Dim>& fiel
 template <int Dim>
 void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
                  std::span<double> flat, std::span<double> integral, const LineOptions& options,
-                 const EdgeIntegrals* known, double* area) {
-  EdgeIntegrals own;
+                 const EdgeIntegrals<Dim>* known, double* area) {
+  EdgeIntegrals<Dim> own;
   if (known == nullptr) {
     own = edge_integrals(mesh, field, cells, options);
     known = &own;
@@ -240,8 +272,8 @@ void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span
   template double simplex_shape<D>(const SimplexLengths<D>&);                                                     \
   template double simplex_shape<D>(const SimplexLengths<D>&, double);                                             \
   template void cell_shapes<D>(const Mesh<D>&, const MetricField<D>&, std::span<const CellId>, std::span<double>, \
-                               std::span<double>, const LineOptions&, const EdgeIntegrals*, double*);                          \
-  template EdgeIntegrals edge_integrals<D>(const Mesh<D>&, const MetricField<D>&, std::span<const CellId>,        \
+                               std::span<double>, const LineOptions&, const EdgeIntegrals<D>*, double*);                       \
+  template EdgeIntegrals<D> edge_integrals<D>(const Mesh<D>&, const MetricField<D>&, std::span<const CellId>,        \
                                            const LineOptions&);
 PILLOWMESH_INSTANTIATE(2)
 PILLOWMESH_INSTANTIATE(3)

@@ -29,25 +29,27 @@ template <int Dim>
 double simplex_shape(const SimplexLengths<Dim>& lengths, double volume);
 
 /// The edges of cells and what has been integrated along them.
+template <int Dim>
 struct EdgeIntegrals {
   EdgeTable edges;
-  std::vector<LineIntegral> along;  ///< of each edge, by its number
+  std::vector<LineIntegral> along;           ///< of each edge, by its number
+  std::vector<SymTensor<Dim>> at_vertices;  ///< the metric at those of the cells
 };
 
 /// \pre the cells are alive. Cost: linear in them and in the points.
 template <int Dim>
-EdgeIntegrals edge_integrals(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
+EdgeIntegrals<Dim> edge_integrals(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
                              const LineOptions& options);
 
 /// eta of each of `cells`, the least over its 2^Dim corner simplices. Points and cells are all of the mesh that is needed.
 /// \param flat out: with flat simplices. \pre flat.size() == cells.size()
-/// \param integral out: with the integral of sqrt(det M) over the corner simplices, to 0.1 %; may be empty.
-/// \param options how edges are integrated; diagonals with panels twice as long.
+/// \param integral out: with the integral of sqrt(det M) over the corner simplices, to 0.3 %; may be empty.
+/// \param options how edges are integrated; diagonals with panels four times as long.
 /// \param known what edge_integrals found of these cells with the same options; null: that is done here.
 /// \param area 2D, with `integral`: the metric areas of the cells are added to it; may be null.
 template <int Dim>
 void cell_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::span<const CellId> cells,
                  std::span<double> flat, std::span<double> integral, const LineOptions& options = {},
-                 const EdgeIntegrals* known = nullptr, double* area = nullptr);
+                 const EdgeIntegrals<Dim>* known = nullptr, double* area = nullptr);
 
 }  // namespace pillowmesh
