@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 namespace pillowmesh {
 namespace {
-
-constexpr int kRoots = 16;  ///< along each side of the box
 
 /// |H^-1 (K - H)|_F
 double difference(const SizeTensor& H, const SizeTensor& K) {
@@ -20,10 +20,14 @@ double difference(const SizeTensor& H, const SizeTensor& K) {
 /// definite where the metric jumps.
 void make_bilinear(std::array<std::array<float, 9>, 3>& coefficients) {
   for (auto& k : coefficients) {
-    const auto value = [&](double u, double v) -> double {
-      return (k[0] + u * k[1] + k[2]) + v * (k[3] + u * k[4] + k[5]) + (k[6] + u * k[7] + k[8]);
-    };
-    const double a = value(-1, -1), b = value(1, -1), c = value(-1, 1), d = value(1, 1);
+    // The same for u = -1 and for u = 1, and then for v.
+    std::array<double, 3> left, right;
+    for (int j = 0; j < 3; ++j) {
+      const double even = k[3 * j], odd = k[3 * j + 1], square = k[3 * j + 2];
+      left[j] = (even - odd) + square, right[j] = (even + odd) + square;
+    }
+    const double a = (left[0] - left[1]) + left[2], b = (right[0] - right[1]) + right[2], c = (left[0] + left[1]) + left[2],
+                 d = (right[0] + right[1]) + right[2];
     const std::array<double, 9> bilinear{0.25 * (a + b + c + d), 0.25 * (b + d - a - c), 0, 0.25 * (c + d - a - b), 0.25 * (a + d - b - c), 0, 0, 0, 0};
     std::copy(bilinear.begin(), bilinear.end(), k.begin());
   }
@@ -60,20 +64,25 @@ Background::Background(MetricField<2> field, const Point<2>& low, const Point<2>
       for (int k = 0; k < 4; ++k) nodes_[(j + (k >> 1)) * kRoots + i + (k & 1)] = nodes_[first + k];
       nodes_.resize(first);
     }
+  starts_.resize(kStarts * kStarts);
+  for (int j = 0; j < kStarts; ++j)
+    for (int i = 0; i < kStarts; ++i) starts_[j * kStarts + i] = (j >> kShallow) * kRoots + (i >> kShallow);
 }
 
 Background::Place Background::descend(const Point<2>& p, Index& leaf) {
   const double fx = std::clamp((p[0] - low_[0]) / cell_[0], 0.0, double{kRoots});
   const double fy = std::clamp((p[1] - low_[1]) / cell_[1], 0.0, double{kRoots});
-  const int i = std::min(static_cast<int>(fx), kRoots - 1), j = std::min(static_cast<int>(fy), kRoots - 1);
-  Index n = j * kRoots + i;
-  double u = 2.0 * (fx - i) - 1.0, v = 2.0 * (fy - j) - 1.0;
-  std::int64_t column = i, row = j;  // of the square among those of its level: where it is must not depend on p's rounding
-  for (int depth = 0;; ++depth) {
+  constexpr int kFiner = 1 << kShallow;
+  const int i = std::min(static_cast<int>(kFiner * fx), kStarts - 1), j = std::min(static_cast<int>(kFiner * fy), kStarts - 1);
+  Index n = starts_[j * kStarts + i];
+  const int depth = nodes_[n].depth;
+  std::int64_t column = i >> (kShallow - depth), row = j >> (kShallow - depth);  // of the square among those of its level
+  const double scale = static_cast<double>(1 << depth);
+  double u = 2.0 * (scale * fx - static_cast<double>(column)) - 1.0, v = 2.0 * (scale * fy - static_cast<double>(row)) - 1.0;
+  for (;;) {
     if (nodes_[n].child < 0) {
-      if (nodes_[n].rough != 1 || depth == kDepth) break;
-      const Point<2>& s = scale_[depth];
-      divide(n, low_[0] + static_cast<double>(2 * column + 1) / s[0], low_[1] + static_cast<double>(2 * row + 1) / s[1], depth + 1);
+      if (nodes_[n].rough != 1 || nodes_[n].depth == kDepth) break;
+      divide(n, column, row);
     }
     const int right = u >= 0, up = v >= 0;
     n = nodes_[n].child + 2 * up + right;
@@ -88,16 +97,25 @@ Background::Place Background::descend(const Point<2>& p, Index& leaf) {
   return place(leaves_[leaf], fx > 0 && fx < kRoots && fy > 0 && fy < kRoots ? p : inside);
 }
 
-void Background::divide(Index node, double x, double y, int depth) {
+void Background::divide(Index node, std::int64_t column, std::int64_t row) {
   const Index first = static_cast<Index>(nodes_.size());
+  const int depth = nodes_[node].depth + 1;
+  const Point<2>& s = scale_[depth - 1];
   nodes_.resize(nodes_.size() + 4);
-  make_children(first, x, y, depth);
+  // Where the square is must not depend on the rounding of a point in it.
+  make_children(first, low_[0] + static_cast<double>(2 * column + 1) / s[0], low_[1] + static_cast<double>(2 * row + 1) / s[1],
+                depth);
   // What was a leaf was never handed out: the last child takes its place.
   Node& last = nodes_[first + 3];
   leaves_[~nodes_[node].child] = leaves_.back();
   leaves_.pop_back();
   last.child = nodes_[node].child;
   nodes_[node].child = first;
+  if (depth > kShallow) return;
+  const std::int64_t starts = kStarts / (kRoots << (depth - 1)), half = starts / 2;  // along the side of the square
+  for (std::int64_t j = 0; j < starts; ++j)
+    for (std::int64_t i = 0; i < starts; ++i)
+      starts_[(row * starts + j) * kStarts + column * starts + i] = first + 2 * (j >= half ? 1 : 0) + (i >= half ? 1 : 0);
 }
 
 void Background::make_children(Index first, double x, double y, int depth) {
@@ -105,12 +123,14 @@ void Background::make_children(Index first, double x, double y, int depth) {
   // 5 x 5 points are the 3 x 3 of each child; 2 x 2 more in each child are where it is compared.
   std::array<Point<2>, 41> points;
   std::array<SymTensor<2>, 41> M;
+  std::array<SizeTensor, 41> sizes;
   for (int j = 0; j < 5; ++j)
     for (int i = 0; i < 5; ++i) points[5 * j + i] = {x + (0.5 * i - 1.0) * half_x, y + (0.5 * j - 1.0) * half_y};
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 4; ++i)
       points[25 + 4 * j + i] = {x + (0.5 * i - 0.75) * half_x, y + (0.5 * j - 0.75) * half_y};
   field_.evaluate(points, M);
+  for (int i = 0; i < 41; ++i) sizes[i] = size_tensor(M[i]);
   for (int k = 0; k < 4; ++k) {
     Leaf leaf;
     leaf.x = x + ((k & 1) ? 0.5 : -0.5) * half_x;
@@ -120,7 +140,7 @@ void Background::make_children(Index first, double x, double y, int depth) {
       std::array<double, 9> f;
       for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 3; ++i) {
-          const SizeTensor H = size_tensor(M[5 * (2 * (k >> 1) + j) + 2 * (k & 1) + i]);
+          const SizeTensor& H = sizes[5 * (2 * (k >> 1) + j) + 2 * (k & 1) + i];
           f[3 * j + i] = e == 0 ? H.a : (e == 1 ? H.b : H.c);
         }
       // Along u, then along v: f(-1), f(0), f(1) -> coefficients of 1, u, u^2.
@@ -134,9 +154,10 @@ void Background::make_children(Index first, double x, double y, int depth) {
       }
       std::copy(f.begin(), f.end(), leaf.k[e].begin());
     }
+
     double worst = 0.0, size = 1e300;
     for (int q = 0; q < 4; ++q) {
-      const SizeTensor H = size_tensor(M[25 + 4 * (2 * (k >> 1) + (q >> 1)) + 2 * (k & 1) + (q & 1)]);
+      const SizeTensor& H = sizes[25 + 4 * (2 * (k >> 1) + (q >> 1)) + 2 * (k & 1) + (q & 1)];
       const Place at{&leaf, (q & 1) ? 0.5 : -0.5, (q >> 1) ? 0.5 : -0.5};
       const double d = difference(H, evaluate(at));
       worst = d > worst || !(d == d) ? d : worst;
@@ -150,7 +171,7 @@ void Background::make_children(Index first, double x, double y, int depth) {
       for (rough = 1; rough < never && !(std::max(half_x, half_y) > options_.smallest * size); ++rough) size *= 0.5;
     }
     if (rough > 1) make_bilinear(leaf.k);
-    nodes_[first + k] = {~static_cast<Index>(leaves_.size()), rough};
+    nodes_[first + k] = {~static_cast<Index>(leaves_.size()), rough, leaf.depth};
     leaves_.push_back(leaf);  // doubled where there is no room: what is not used of that takes no memory
   }
 }
