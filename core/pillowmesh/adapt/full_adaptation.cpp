@@ -16,7 +16,7 @@ namespace {
 constexpr int kMostMended = 2;
 
 /// Times the threshold: a coarse mesh with a longer edge than that has lost cells that finer ones would not find again.
-constexpr double kMuchTooLong = 1.5;
+constexpr double kMuchTooLong = 1.4;
 
 /// Effort fast: the coarsest mesh is to have less than so many times the cells that are given. Layers start one that is to have
 /// more well, with rows that follow the metric, but make several times those cells, and to take them out takes time: circle2d, 13

@@ -22,9 +22,9 @@ Budget budget_of(Effort effort, bool diced, int halvings) {
   const bool coarse = halvings > 0;
   switch (effort) {
     case Effort::fast:
-      if (coarse && diced) return {3, 0.25, 0.1, kNoRows, 0, 0, 1, 1, 1, kFewCells};
-      if (coarse) return {3, 0.3, 0.1, kNoRows, 1, 0, 2, 1, 1, kFewCells};
-      if (diced) return {0, 0, 0, kNoRows, 0, 0, 1, 0, 1, kFewCells};
+      if (coarse && diced) return {3, 0.25, 0.1, kNoRows, 0, 0, 1, 0, 0, kFewCells};
+      if (coarse) return {3, 0.3, 0.1, kNoRows, 1, 0, 2, 0, 0, kFewCells};
+      if (diced) return {0, 0, 0, kNoRows, 0, 0, 2, 0, 0, kFewCells};
       return {6, 0.3, 0.1, 3, 2, 0, 5, 4, 2, kFewCells};
     case Effort::normal:
       if (coarse) return {4, 0.4, 0.1, kNoRows, 4, 0, 5, 10, 20};
@@ -150,6 +150,10 @@ void Schedule::end_pass() {
 
 void Schedule::end_polish_round() {
   if (polish_ == budget_.polish_rounds || (polish_ > 0 && search_.kept() == 0)) {
+    if (budget_.settle_sweeps == 0) {
+      stage_ = Stage::done;
+      return;
+    }
     stage_ = Stage::settle;
     sweeps_ = 0;
     search_.release();
@@ -194,7 +198,7 @@ bool Schedule::step() {
       if (sweeps_ < budget_.sweeps) {
         if (!sweeping_) begin_sweep();
         continue_sweep();
-      } else if (!descend(budget_.sweeps + budget_.relax_sweeps)) {
+      } else if (budget_.relax_sweeps == 0 || !descend(budget_.sweeps + budget_.relax_sweeps)) {
         next_pass();
       }
       break;
