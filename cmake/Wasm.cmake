@@ -12,7 +12,7 @@ string(JOIN "|" hot
 # The modules for hexahedra and for metrics have room for more. What is listed here is compiled once more for them: of an
 # inline function that was not inlined, the linker keeps one copy for all callers, and it may be one from a source
 # compiled with -Oz. (Making the metric of the portrait took 22 s without, most of it in one-line accessors.)
-string(JOIN "|" hot_in_3d "adapt/adapter" "mesh/validate" "metric/length\\." "quality/shape")
+string(JOIN "|" hot_in_3d "adapt/adapter" "metric/length\\." "quality/shape")
 string(JOIN "|" hot_in_metrics
   "metric/(gradation|image|intersection|nodal|portrait|simplex_tree|spectrum)")
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 namespace pillowmesh {
 namespace {
+
+constexpr int kRoots = 16;  ///< along each side of the box
 
 /// |H^-1 (K - H)|_F
 double difference(const SizeTensor& H, const SizeTensor& K) {
@@ -20,7 +20,7 @@ double difference(const SizeTensor& H, const SizeTensor& K) {
 /// definite where the metric jumps.
 void make_bilinear(std::array<std::array<float, 9>, 3>& coefficients) {
   for (auto& k : coefficients) {
-    // The same for u = -1 and for u = 1, and then for v.
+    // Step by step: of one formula for all four corners GCC 12, which computes them at once, makes other numbers now and then.
     std::array<double, 3> left, right;
     for (int j = 0; j < 3; ++j) {
       const double even = k[3 * j], odd = k[3 * j + 1], square = k[3 * j + 2];
@@ -64,25 +64,20 @@ Background::Background(MetricField<2> field, const Point<2>& low, const Point<2>
       for (int k = 0; k < 4; ++k) nodes_[(j + (k >> 1)) * kRoots + i + (k & 1)] = nodes_[first + k];
       nodes_.resize(first);
     }
-  starts_.resize(kStarts * kStarts);
-  for (int j = 0; j < kStarts; ++j)
-    for (int i = 0; i < kStarts; ++i) starts_[j * kStarts + i] = (j >> kShallow) * kRoots + (i >> kShallow);
 }
 
 Background::Place Background::descend(const Point<2>& p, Index& leaf) {
   const double fx = std::clamp((p[0] - low_[0]) / cell_[0], 0.0, double{kRoots});
   const double fy = std::clamp((p[1] - low_[1]) / cell_[1], 0.0, double{kRoots});
-  constexpr int kFiner = 1 << kShallow;
-  const int i = std::min(static_cast<int>(kFiner * fx), kStarts - 1), j = std::min(static_cast<int>(kFiner * fy), kStarts - 1);
-  Index n = starts_[j * kStarts + i];
-  const int depth = nodes_[n].depth;
-  std::int64_t column = i >> (kShallow - depth), row = j >> (kShallow - depth);  // of the square among those of its level
-  const double scale = static_cast<double>(1 << depth);
-  double u = 2.0 * (scale * fx - static_cast<double>(column)) - 1.0, v = 2.0 * (scale * fy - static_cast<double>(row)) - 1.0;
-  for (;;) {
+  const int i = std::min(static_cast<int>(fx), kRoots - 1), j = std::min(static_cast<int>(fy), kRoots - 1);
+  Index n = j * kRoots + i;
+  double u = 2.0 * (fx - i) - 1.0, v = 2.0 * (fy - j) - 1.0;
+  std::int64_t column = i, row = j;  // of the square among those of its level: where it is must not depend on p's rounding
+  for (int depth = 0;; ++depth) {
     if (nodes_[n].child < 0) {
-      if (nodes_[n].rough != 1 || nodes_[n].depth == kDepth) break;
-      divide(n, column, row);
+      if (nodes_[n].rough != 1 || depth == kDepth) break;
+      const Point<2>& s = scale_[depth];
+      divide(n, low_[0] + static_cast<double>(2 * column + 1) / s[0], low_[1] + static_cast<double>(2 * row + 1) / s[1], depth + 1);
     }
     const int right = u >= 0, up = v >= 0;
     n = nodes_[n].child + 2 * up + right;
@@ -97,25 +92,16 @@ Background::Place Background::descend(const Point<2>& p, Index& leaf) {
   return place(leaves_[leaf], fx > 0 && fx < kRoots && fy > 0 && fy < kRoots ? p : inside);
 }
 
-void Background::divide(Index node, std::int64_t column, std::int64_t row) {
+void Background::divide(Index node, double x, double y, int depth) {
   const Index first = static_cast<Index>(nodes_.size());
-  const int depth = nodes_[node].depth + 1;
-  const Point<2>& s = scale_[depth - 1];
   nodes_.resize(nodes_.size() + 4);
-  // Where the square is must not depend on the rounding of a point in it.
-  make_children(first, low_[0] + static_cast<double>(2 * column + 1) / s[0], low_[1] + static_cast<double>(2 * row + 1) / s[1],
-                depth);
+  make_children(first, x, y, depth);
   // What was a leaf was never handed out: the last child takes its place.
   Node& last = nodes_[first + 3];
   leaves_[~nodes_[node].child] = leaves_.back();
   leaves_.pop_back();
   last.child = nodes_[node].child;
   nodes_[node].child = first;
-  if (depth > kShallow) return;
-  const std::int64_t starts = kStarts / (kRoots << (depth - 1)), half = starts / 2;  // along the side of the square
-  for (std::int64_t j = 0; j < starts; ++j)
-    for (std::int64_t i = 0; i < starts; ++i)
-      starts_[(row * starts + j) * kStarts + column * starts + i] = first + 2 * (j >= half ? 1 : 0) + (i >= half ? 1 : 0);
 }
 
 void Background::make_children(Index first, double x, double y, int depth) {
@@ -154,7 +140,6 @@ void Background::make_children(Index first, double x, double y, int depth) {
       }
       std::copy(f.begin(), f.end(), leaf.k[e].begin());
     }
-
     double worst = 0.0, size = 1e300;
     for (int q = 0; q < 4; ++q) {
       const SizeTensor& H = sizes[25 + 4 * (2 * (k >> 1) + (q >> 1)) + 2 * (k & 1) + (q & 1)];
@@ -171,7 +156,7 @@ void Background::make_children(Index first, double x, double y, int depth) {
       for (rough = 1; rough < never && !(std::max(half_x, half_y) > options_.smallest * size); ++rough) size *= 0.5;
     }
     if (rough > 1) make_bilinear(leaf.k);
-    nodes_[first + k] = {~static_cast<Index>(leaves_.size()), rough, leaf.depth};
+    nodes_[first + k] = {~static_cast<Index>(leaves_.size()), rough};
     leaves_.push_back(leaf);  // doubled where there is no room: what is not used of that takes no memory
   }
 }

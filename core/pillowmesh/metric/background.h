@@ -58,9 +58,6 @@ class Background {
 
  private:
   static constexpr int kDepth = 24;
-  static constexpr int kRoots = 16;    ///< along each side of the box
-  static constexpr int kShallow = 3;   ///< levels that a descent can leap over
-  static constexpr int kStarts = kRoots << kShallow;
   /// Two lines of the cache.
   struct alignas(64) Leaf {
     double x, y;  ///< its centre
@@ -72,7 +69,6 @@ class Background {
   struct Node {
     Index child;
     std::uint8_t rough;  ///< 0: good; 1: to be divided; n: to be divided when sizes are halved for the (n - 1)th time
-    std::uint8_t depth;
   };
   struct Place {
     const Leaf* leaf;
@@ -97,8 +93,7 @@ class Background {
     return descend(p, hint);
   }
   Place descend(const Point<2>& p, Index& leaf);
-  /// \param column, row of the node among those of its level
-  void divide(Index node, std::int64_t column, std::int64_t row);
+  void divide(Index node, double x, double y, int depth);
   /// Of a square with this centre, whose children are of this depth.
   void make_children(Index first, double x, double y, int depth);
   [[nodiscard]] static SizeTensor evaluate(const Place& at);
@@ -109,8 +104,6 @@ class Background {
   Point<2> low_, high_, cell_;
   std::array<Point<2>, kDepth + 1> scale_;  ///< of leaves by their depth: u = (p[0] - x) scale[0]
   std::vector<Node> nodes_;
-  /// Of kStarts x kStarts squares the deepest node that holds each of them: where descents begin.
-  std::vector<Index> starts_;
   std::vector<Leaf> leaves_;
   Index last_ = kNone;
 };
