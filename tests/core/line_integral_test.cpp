@@ -83,6 +83,40 @@ TEST_CASE("line integrals do not depend on the direction or on the other lines")
   }
 }
 
+TEST_CASE("lines whose ends are known, together with others, have the same integrals, and do not ask again") {
+  const auto check = []<int Dim>(const char* name) {
+    const Case& c = *find_case(name);
+    const auto field = *MetricField<Dim>::from_formula(c.formula);
+    const auto mesh = std::get<Mesh<Dim>>(*parse_primitive(c.mesh));
+    std::vector<SymTensor<Dim>> at(mesh.points.size());
+    field.evaluate(mesh.points, at);
+    auto lines = edges_of(mesh);
+    std::vector<LineIntegral> expected(lines.size()), found(lines.size());
+    line_integrals<Dim>(field, lines, expected, {.panel = 0.05});
+    const auto edges = unique_edges(mesh);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const auto [a, b] = edges[i];
+      if (i % 3 == 0) continue;
+      lines[i] = {mesh.points[a], mesh.points[b], &at[a], &at[b]};
+      if (i % 3 == 1) lines[i] = {mesh.points[b], mesh.points[a], &at[b], &at[a]};
+    }
+    line_integrals<Dim>(field, lines, found, {.panel = 0.05});
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      CHECK(found[i].length == Approx(expected[i].length).epsilon(1e-12));
+      CHECK(found[i].density == Approx(expected[i].density).epsilon(1e-12));
+      CHECK(found[i].ends == Approx(expected[i].ends).epsilon(1e-12));
+    }
+    const SymTensor<Dim> twice = SymTensor<Dim>::isotropic(0.25);
+    const Point<Dim> low = Point<Dim>::Zero(), high = Point<Dim>::Unit(0);
+    const std::vector<Line<Dim>> line{{low, high, &twice, &twice}};
+    LineIntegral one;
+    line_integrals<Dim>(*MetricField<Dim>::from_formula("h = 1"), line, {&one, 1}, {.tolerance = 10.0, .density_tolerance = 1e3});
+    CHECK(one.length == Approx((14 * 4.0 + 76.0) / 90));  // Boole's rule
+  };
+  check.operator()<2>("circle2d");
+  check.operator()<3>("sphere3d");
+}
+
 TEST_CASE("halving closes in on kinks, and stops at jumps") {
   const Point<2> a(0, 0), b(1, 0);
   // 1 / h = 1 + 20 |x - c|, wherever the kink lies between the samples.
