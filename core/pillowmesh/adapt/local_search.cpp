@@ -43,8 +43,9 @@ int most_attempts_at_large(CellId cells) { return std::clamp(20'000 / std::max(c
 
 }  // namespace
 
-void LocalSearch::begin_pass(double temperature) {
+void LocalSearch::begin_pass(double temperature, double above) {
   temperature_ = temperature;
+  above_ = above;
   next_ = 0;
   kept_ = 0;
   outlook_.forget();
@@ -59,6 +60,7 @@ void LocalSearch::release() {
 }
 
 bool LocalSearch::interesting(CellId c) {
+  if (above_ > 0.0) return trial_.relocator.energy(c) > above_;
   if (trial_.relocator.energy(c) > kPoorCell) return true;
   for (const VertexId v : mesh_.cells[c])
     if (outlook_.valence(v) != trial_.ideal(v)) return true;

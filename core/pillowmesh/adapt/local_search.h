@@ -19,7 +19,8 @@ class LocalSearch {
   LocalSearch(Mesh<2>& mesh, Trial& trial, std::uint64_t seed) : mesh_(mesh), trial_(trial), outlook_(mesh, trial), random_(seed) {}
 
   /// T in units of one ideal cell. A pass is over all cells that there are when it comes to them.
-  void begin_pass(double temperature);
+  /// \param above only over those with more energy than this, where it is not 0
+  void begin_pass(double temperature, double above = 0.0);
   /// Goes on with the pass for about `moves` vertex moves. \return false when it is over.
   bool continue_pass(std::int64_t moves);
   /// Changes kept since begin_pass.
@@ -51,7 +52,7 @@ class LocalSearch {
   Outlook outlook_;
   Refusals refusals_;
   Random random_;
-  double temperature_ = 0.0;
+  double temperature_ = 0.0, above_ = 0.0;
   CellId next_ = 0;
   std::int64_t kept_ = 0;
   std::vector<Index> looked_;  ///< per cell: when its candidates were last tried

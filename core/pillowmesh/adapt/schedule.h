@@ -16,15 +16,17 @@ namespace pillowmesh {
 
 /// How much is spent. Temperatures fall geometrically.
 struct Budget {
-  int hot_passes;
-  double hot, cool;
-  int rows_every;  ///< so many hot passes whole rows are removed and doubled
-  int cold_passes, polish_rounds;
-  int sweeps, relax_sweeps, settle_sweeps;  ///< of single vertices at the beginning; of all at once, then and at the end
+  int hot_passes = 0;
+  double hot = 0.0, cool = 0.0;
+  int rows_every = 1;  ///< so many hot passes whole rows are removed and doubled
+  int cold_passes = 0, polish_rounds = 0;
+  int sweeps = 0, relax_sweeps = 0, settle_sweeps = 0;  ///< of single vertices at the beginning; of all at once, then and at the end
   CellId rows_up_to = std::numeric_limits<CellId>::max();  ///< cells that the mesh may have for that
   int warm_rounds = 0;  ///< of the polish: from `cool` to a third of it
   /// For each cell the hot passes may move so many vertices: where sizes turn and kink, passes are longer, and fewer.
   double hot_moves = std::numeric_limits<double>::infinity();
+  double cold_above = 0.0;  ///< energy of the cells that cold passes are for; 0: all
+  double least_shape = 0.0;  ///< below it eta is raised at the end, where there is no polish
 };
 
 /// Improves a quad mesh that layers have refined, step by step. The mesh is valid between steps; it may hold dead cells
@@ -55,6 +57,7 @@ class Schedule {
   void end_polish_round();
   void adjust_balance();
   bool settle();
+  void finish();
   [[nodiscard]] double live_cells() const;
   [[nodiscard]] double cooled() const;
   [[nodiscard]] double temperature() const;

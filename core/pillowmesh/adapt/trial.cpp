@@ -240,6 +240,26 @@ bool Trial::attempt_at_large(Operator op, double threshold) {
   return good;
 }
 
+void Trial::mend_shapes(double eta) {
+  constexpr int kRounds = 4;
+  constexpr double kWeight = 30.0;
+  relocator.begin_for_good();
+  relocator.journal = nullptr;
+  const std::vector<CellId> poor = relocator.cells_below(eta);
+  const double before = relocator.weights().shape;
+  relocator.set_shape(kWeight);
+  for (int k = 0; k < kRounds; ++k)
+    for (const CellId c : poor)
+      for (const VertexId v : mesh_.cells[c]) relocator.relocate(v), ++moves;
+  relocator.set_shape(before);
+  for (const CellId c : poor)
+    for (const VertexId v : mesh_.cells[c])
+      if (find_star(mesh_, v, star_))
+        for (int k = 0; k < star_.count; ++k) relocator.refresh(star_.cell[k]);
+  relocator.journal = &journal_;
+  relocator.begin();
+}
+
 void Trial::begin_sweep() {
   swept_.resize(mesh_.points.size(), 0);
   ++sweep_;

@@ -44,6 +44,9 @@ class Trial {
   /// \return by how much the energy fell.
   double sweep(CellId first, CellId last);
 
+  /// Relocates the vertices of cells with an eta below this a few times, for their shapes.
+  void mend_shapes(double eta);
+
   /// Cells that a vertex should have: 4 inside, 2 on a curve, at a corner as many as fill it with right angles.
   [[nodiscard]] int ideal(VertexId v) const { return ideal_[v]; }
   /// When the surroundings of v last changed, in terms of `clock`.

@@ -64,26 +64,37 @@ QuadRelocator::Indicators QuadRelocator::indicators() const {
   double sum = 0.0, squares = 0.0, sides = 0.0, lack = 0.0, cells = 0.0;
   for (CellId c = 0; c < mesh_.cell_count(); ++c) {
     if (!mesh_.alive(c)) continue;
-    std::array<double, 4> l;
-    std::array<VertexId, 4> v;
     for (int i = 0; i < 4; ++i) {
-      l[i] = edges_[c][i].l, v[i] = around(mesh_, c, i);
-      const double share = twin_of_side(mesh_, c, i) < 0 ? 1.0 : 0.5;  // other edges come twice
-      sum += share * l[i], squares += share * l[i] * l[i], sides += share;
+      const double l = edges_[c][i].l, share = twin_of_side(mesh_, c, i) < 0 ? 1.0 : 0.5;  // other edges come twice
+      sum += share * l, squares += share * l * l, sides += share;
     }
-    double worst = 1.0;
-    for (int i = 0; i < 2; ++i) {
-      const VertexId a = v[i + 1], b = v[(i + 3) & 3];  // opposite to the corners i and i + 2
-      const double d = length(mesh_.points[a], size_[a], mesh_.points[b], size_[b]);
-      for (const int k : {i, i + 2})
-        worst = std::min(worst, squared_shape(l[k] * l[k], l[(k + 3) & 3] * l[(k + 3) & 3], d * d));
-    }
-    lack += 1.0 - std::sqrt(std::max(worst, 0.0));
+    lack += 1.0 - std::sqrt(std::max(least_squared_shape(c), 0.0));
     cells += 1.0;
   }
   if (cells == 0.0) return {};
   const double mean = sum / sides;
   return {std::sqrt(std::max(0.0, squares / sides - mean * mean)) / mean, lack / cells, misalignment()};
+}
+
+/// Of its corners, at the most 1.
+double QuadRelocator::least_squared_shape(CellId c) const {
+  double least = 1.0;
+  for (int i = 0; i < 2; ++i) {
+    const VertexId a = around(mesh_, c, i + 1), b = around(mesh_, c, i + 3);  // opposite to the corners i and i + 2
+    const double d = length(mesh_.points[a], size_[a], mesh_.points[b], size_[b]);
+    for (const int k : {i, i + 2}) {
+      const double l = edges_[c][k].l, m = edges_[c][(k + 3) & 3].l;
+      least = std::min(least, squared_shape(l * l, m * m, d * d));
+    }
+  }
+  return least;
+}
+
+std::vector<CellId> QuadRelocator::cells_below(double eta) const {
+  std::vector<CellId> found;
+  for (CellId c = 0; c < mesh_.cell_count(); ++c)
+    if (mesh_.alive(c) && least_squared_shape(c) < eta * eta) found.push_back(c);
+  return found;
 }
 
 void QuadRelocator::set_alignment(double alignment) {

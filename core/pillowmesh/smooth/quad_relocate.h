@@ -53,11 +53,15 @@ class QuadRelocator {
   void measure_vertex(VertexId v);
   /// Measures a cell whose corners, or whose vertices, are new. \return its energy
   double measure_cell(CellId c);
+  /// Cells with an eta, as `lack` has it, below this. Cost: linear.
+  [[nodiscard]] std::vector<CellId> cells_below(double eta) const;
   /// The cell is dead: it has no energy. To be called for a change that took it away.
   void forget_cell(CellId c);
   /// While d is regularised by delta > 0, vertices may move to where corners are inverted. Energies of cells are those
   /// without delta only after `refresh`.
   void set_delta(double delta) { weights_.delta = delta; }
+  /// The same holds for the weight of shapes.
+  void set_shape(double weight) { weights_.shape = weight; }
   void refresh(CellId c);
   /// Of all cells that have changed since begin(). \return the largest energy among them
   double refresh_changed();
@@ -141,6 +145,7 @@ class QuadRelocator {
 
   bool collect(VertexId v);
   [[nodiscard]] bool shaped() const { return weights_.shape > 0.0; }
+  [[nodiscard]] double least_squared_shape(CellId c) const;
   [[nodiscard]] double length(const Point<2>& p, const Jet& P, const Point<2>& q, const Jet& Q) const;
   /// The spoke that comes again as number k.
   [[nodiscard]] int again(int k) const { return k < spoke_count_ ? k : (star_.closed ? k % spoke_count_ : spoke_count_ - 1); }
