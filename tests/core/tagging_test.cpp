@@ -79,6 +79,22 @@ TEST_CASE("only the edges of cells that are to be looked at again are measured")
   for (const auto mask : tags.mask) CHECK(mask == EdgeTags<2>::all);
 }
 
+TEST_CASE("only cells at given edges are looked at when these are all that has become too long") {
+  const auto mesh = make_grid<2>({6, 2}, Point<2>(0, 0), Point<2>(6, 2));
+  const auto fine = *MetricField<2>::from_formula("h = 0.1");
+  Tagging<2> tagging(mesh, 2.0);
+  EdgeTags<2> tags;
+  // The edge between the cells 1 and 2: all edges of both are tagged, and of their neighbours those that they share.
+  const std::vector<std::array<VertexId, 2>> edges{{2, 9}};
+  REQUIRE(mesh.points[2] == Point<2>(2, 0));
+  REQUIRE(mesh.points[9] == Point<2>(2, 1));
+  tagging.look_at(mesh, edges);
+  CHECK(tagging.tag_long_edges(mesh, fine, tags) == std::vector<CellId>{0, 1, 2, 3, 7, 8});
+  CHECK(tags.mask[1] == EdgeTags<2>::all);
+  CHECK(tags.mask[2] == EdgeTags<2>::all);
+  CHECK(tags.mask[7] != EdgeTags<2>::all);
+}
+
 TEST_CASE("a cell where layers are refused again and again waits longer, unless its edges change or all are woken") {
   auto mesh = make_grid<2>({4, 1}, Point<2>(0, 0), Point<2>(4, 1));
   const auto fine = *MetricField<2>::from_formula("h = 0.1");

@@ -364,7 +364,9 @@ struct Adapter<Dim>::State {
   /// Again from step 1, on a mesh that operators have changed.
   void insert_layers() {
     tags.mask.assign(mesh.cells.size(), 0);
-    tagging = Tagging<Dim>(mesh, options.threshold, improvement ? improvement->coarser() : 1);
+    tagging = Tagging<Dim>(mesh, options.threshold, improvement->coarser());
+    if constexpr (Dim == 2)
+      if (!improvement->too_long().empty()) tagging.look_at(mesh, improvement->too_long());
     first_iteration = iteration;
     stage = Stage::tag;
   }

@@ -1,5 +1,7 @@
 #include "pillowmesh/adapt/full_adaptation.h"
 
+#include <utility>
+
 #include "pillowmesh/adapt/halving.h"
 #include "pillowmesh/adapt/longest_edge.h"
 #include "pillowmesh/mesh/compact.h"
@@ -102,8 +104,9 @@ FullAdaptation::Next FullAdaptation::step(Mesh<2>& mesh, const MetricField<2>& f
   schedule_.reset();
   // What the layers could not shorten the operators may have, and the other way round.
   const double limit = halvings_ > 0 ? kMuchTooLong * options_.threshold : options_.threshold * (1.0 + kLongestEdgeTolerance);
-  const bool met = !has_longer_edge(mesh, target, limit);
-  if (!met && mended_++ < kMostMended) return insert_layers(mesh);
+  std::vector<std::array<VertexId, 2>> too_long = longer_edges(mesh, target, limit);
+  const bool met = too_long.empty();
+  if (!met && mended_++ < kMostMended) return insert_layers(mesh, std::move(too_long));
   if (halvings_ > 0) return halve(mesh, field, iteration);
   outcome_ = met ? Status{} : Status::limit_not_met("edges longer than the threshold remain");
   background_.reset();
@@ -120,10 +123,11 @@ FullAdaptation::Next FullAdaptation::halve(Mesh<2>& mesh, const MetricField<2>& 
   halvings_ = diced_ ? halvings_ - 1 : 0;
   mended_ = 0;
   recorder_.dice(mesh, iteration);
-  return diced_ ? Next::finer : insert_layers(mesh);
+  return diced_ ? Next::finer : insert_layers(mesh, {});
 }
 
-FullAdaptation::Next FullAdaptation::insert_layers(const Mesh<2>& mesh) {
+FullAdaptation::Next FullAdaptation::insert_layers(const Mesh<2>& mesh, std::vector<std::array<VertexId, 2>> too_long) {
+  too_long_ = std::move(too_long);
   cells_before_layers_ = diced_ ? mesh.cell_count() : 0;
   return Next::layers;
 }

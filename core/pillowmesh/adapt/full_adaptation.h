@@ -1,9 +1,11 @@
 // What full adaptation in 2D does besides layers: coarse meshes first, each searched, then diced in four and mended.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "pillowmesh/adapt/schedule.h"
 #include "pillowmesh/mesh/status.h"
@@ -39,6 +41,9 @@ class FullAdaptation {
   /// something other than `step` is returned.
   Next step(Mesh<2>& mesh, const MetricField<2>& field, const MetricField<2>& target, int iteration);
 
+  /// With `layers`: the edges that are too long. Empty: all have to be looked at.
+  [[nodiscard]] const std::vector<std::array<VertexId, 2>>& too_long() const { return too_long_; }
+
   /// limit_not_met where edges have stayed too long.
   [[nodiscard]] const Status& outcome() const { return outcome_; }
   /// Share of the work believed done, and what is being done.
@@ -47,7 +52,7 @@ class FullAdaptation {
 
  private:
   Next halve(Mesh<2>& mesh, const MetricField<2>& field, int iteration);
-  Next insert_layers(const Mesh<2>& mesh);
+  Next insert_layers(const Mesh<2>& mesh, std::vector<std::array<VertexId, 2>> too_long);
   Background& look_up(const Mesh<2>& mesh, const MetricField<2>& target);
 
   const AdaptOptions& options_;
@@ -57,6 +62,7 @@ class FullAdaptation {
   int halvings_ = 0;    ///< how often the mesh is still to be diced in four
   bool diced_ = false;  ///< the mesh was made from one that had been adapted: it only has to be mended
   CellId cells_before_layers_ = 0;
+  std::vector<std::array<VertexId, 2>> too_long_;
   int mended_ = 0;  ///< how often edges of this mesh had become too long in the end
   std::unique_ptr<Background> background_;
   int background_coarser_ = 1;  ///< whose sizes it has

@@ -35,18 +35,22 @@ double longest_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
   return lengths.empty() ? 0.0 : *std::max_element(lengths.begin(), lengths.end());
 }
 
-bool has_longer_edge(const Mesh<2>& mesh, const MetricField<2>& field, double length) {
+std::vector<std::array<VertexId, 2>> longer_edges(const Mesh<2>& mesh, const MetricField<2>& field, double length) {
   // By chance, the rules for five samples agree on a length that is off by a few hundredths.
   constexpr double nearly = 0.8;
   auto edges = free_edges(mesh);
   std::vector<unsigned char> tagged(edges.size());
   tag_long_edges<2>(field, mesh.points, edges, nearly * length, 0.0, tagged);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    if (tagged[i] != 0) edges[count++] = edges[i];
-  edges.resize(count);
+  const auto keep = [&](auto&& which) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      if (which(i)) edges[count++] = edges[i];
+    edges.resize(count);
+  };
+  keep([&](std::size_t i) { return tagged[i] != 0; });
   const auto lengths = lengths_of<2>(edges, mesh, field);
-  return std::any_of(lengths.begin(), lengths.end(), [&](double l) { return l > length; });
+  keep([&](std::size_t i) { return lengths[i] > length; });
+  return edges;
 }
 
 template <int Dim>

@@ -1,6 +1,9 @@
 // The edges that are too long at last: what a run's outcome tells of them.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "pillowmesh/mesh/mesh.h"
 #include "pillowmesh/mesh/status.h"
 #include "pillowmesh/metric/field.h"
@@ -14,9 +17,9 @@ inline constexpr double kLongestEdgeTolerance = 1e-3;
 template <int Dim>
 double longest_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field);
 
-/// Whether an edge that is not frozen is longer than `length`. Cost: linear in the mesh; for most edges five evaluations of the
+/// The edges that are longer than `length` and not frozen. Cost: linear in the mesh; for most edges five evaluations of the
 /// metric, where `longest_edge` takes seven.
-bool has_longer_edge(const Mesh<2>& mesh, const MetricField<2>& field, double length);
+std::vector<std::array<VertexId, 2>> longer_edges(const Mesh<2>& mesh, const MetricField<2>& field, double length);
 
 /// The mean metric length of the edges. Cost: linear in the mesh.
 template <int Dim>

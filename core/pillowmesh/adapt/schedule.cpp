@@ -132,7 +132,10 @@ void Schedule::next_pass() {
     return;
   }
   if (pass_ <= budget_.hot_passes && pass_ % kPassesToBalance == 0) balance_alignment();
-  if (pass_ == budget_.hot_passes) trial_.touch_all();
+  if (pass_ == budget_.hot_passes) {
+    trial_.touch_all();
+    if (budget_.cold_above > 0.0) trial_.longest = options_.threshold;  // nothing comes after them that would shorten an edge
+  }
   search_.begin_pass(temperature(), pass_ < budget_.hot_passes ? 0.0 : budget_.cold_above);
   stage_ = Stage::pass;
 }

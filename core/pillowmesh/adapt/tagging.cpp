@@ -59,6 +59,19 @@ void Tagging<Dim>::look_at_all(const Mesh<Dim>& mesh) {
 }
 
 template <int Dim>
+void Tagging<Dim>::look_at(const Mesh<Dim>& mesh, std::span<const std::array<VertexId, 2>> edges) {
+  for (const CellId c : list_) changed_[c] = 0;
+  list_.clear();
+  std::vector<std::uint8_t> is_end(mesh.points.size(), 0);
+  for (const auto& [a, b] : edges) is_end[a] = is_end[b] = 1;
+  for (CellId c = 0; c < mesh.cell_count(); ++c) {
+    int ends = 0;
+    for (const VertexId v : mesh.cells[c]) ends += mesh.alive(c) && is_end[v] ? 1 : 0;
+    if (ends > 1) look_again(c);
+  }
+}
+
+template <int Dim>
 std::vector<CellId> Tagging<Dim>::tag_long_edges(const Mesh<Dim>& mesh, const MetricField<Dim>& field,
                                                  EdgeTags<Dim>& tags) {
   using C = Cell<Dim>;

@@ -1,6 +1,8 @@
 // Which edges are too long: looks again only where something changed.
 #pragma once
 
+#include <array>
+#include <span>
 #include <vector>
 
 #include "pillowmesh/metric/field.h"
@@ -19,6 +21,8 @@ class Tagging {
   /// The edges of this cell are to be measured again.
   void look_again(CellId c);
   void look_at_all(const Mesh<Dim>& mesh);
+  /// Only the cells at these edges are to be measured. Cost: linear in the mesh.
+  void look_at(const Mesh<Dim>& mesh, std::span<const std::array<VertexId, 2>> edges);
 
   /// No layer could be inserted at this cell: its edges are measured again in the next call, after a fourth refusal in the
   /// second one from now, then in the fourth and so on; sooner where they change.

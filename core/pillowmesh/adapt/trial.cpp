@@ -201,7 +201,7 @@ bool Trial::attempt(Operator op, double threshold) {
     if (hopeless(relax(far_), patient.far_hope)) return refuse(count.hopeless);
   }
   refused_growth = change;
-  if (change > threshold) return refuse(count.hopeless);
+  if (change > threshold || relocator.longest_changed() > longest) return refuse(count.hopeless);
   keep(op, far_);
   return true;
 }
@@ -243,21 +243,19 @@ bool Trial::attempt_at_large(Operator op, double threshold) {
 void Trial::mend_shapes(double eta) {
   constexpr int kRounds = 4;
   constexpr double kWeight = 30.0;
-  relocator.begin_for_good();
-  relocator.journal = nullptr;
-  const std::vector<CellId> poor = relocator.cells_below(eta);
   const double before = relocator.weights().shape;
-  relocator.set_shape(kWeight);
-  for (int k = 0; k < kRounds; ++k)
-    for (const CellId c : poor)
+  for (const CellId c : relocator.cells_below(eta)) {
+    journal_.begin();
+    relocator.begin();
+    relocator.set_shape(kWeight);
+    for (int k = 0; k < kRounds; ++k)
       for (const VertexId v : mesh_.cells[c]) relocator.relocate(v), ++moves;
-  relocator.set_shape(before);
-  for (const CellId c : poor)
-    for (const VertexId v : mesh_.cells[c])
-      if (find_star(mesh_, v, star_))
-        for (int k = 0; k < star_.count; ++k) relocator.refresh(star_.cell[k]);
-  relocator.journal = &journal_;
-  relocator.begin();
+    relocator.set_shape(before);
+    relocator.refresh_changed();
+    if (!(relocator.longest_changed() > longest)) continue;
+    journal_.undo();
+    relocator.undo();
+  }
 }
 
 void Trial::begin_sweep() {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "pillowmesh/mesh/cavity.h"
@@ -44,7 +45,7 @@ class Trial {
   /// \return by how much the energy fell.
   double sweep(CellId first, CellId last);
 
-  /// Relocates the vertices of cells with an eta below this a few times, for their shapes.
+  /// Relocates the vertices of cells with an eta below this a few times, for their shapes. Cost: linear, without what moves.
   void mend_shapes(double eta);
 
   /// Cells that a vertex should have: 4 inside, 2 on a curve, at a corner as many as fill it with right angles.
@@ -55,6 +56,9 @@ class Trial {
   void touch_all();
   /// No change comes any more, sweeps alone: gives back what only changes need.
   void release();
+
+  /// No change of `attempt` may leave a longer edge around it, nor may `mend_shapes`.
+  double longest = std::numeric_limits<double>::infinity();
 
   Cavity cavity;
   QuadRelocator relocator;

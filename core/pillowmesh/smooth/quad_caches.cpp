@@ -266,6 +266,17 @@ double QuadRelocator::refresh_changed() {
   return largest;
 }
 
+double QuadRelocator::longest_changed() const {
+  double longest = 0.0;
+  const auto look = [&](CellId c) {
+    if (!mesh_.alive(c)) return;
+    for (const EdgeTerm& e : edges_[c]) longest = std::max(longest, e.l);
+  };
+  for (const CellId c : old_cells_) look(c);
+  for (CellId c = static_cast<CellId>(cell_stamp_.size()); c < mesh_.cell_count(); ++c) look(c);
+  return longest;
+}
+
 void QuadRelocator::forget_cell(CellId c) {
   touch_cell(c);
   energy_[c] = 0.0;

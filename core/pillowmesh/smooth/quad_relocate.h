@@ -65,6 +65,8 @@ class QuadRelocator {
   void refresh(CellId c);
   /// Of all cells that have changed since begin(). \return the largest energy among them
   double refresh_changed();
+  /// The length of the longest edge of those cells.
+  [[nodiscard]] double longest_changed() const;
 
   /// From here on everything can be taken back, the mesh's points included: those are undone by their owner.
   void begin();
