@@ -25,7 +25,7 @@ constexpr double kLastLength = 0.4, kLastShape = 30.0, kLastAlignment = 1.6;
 constexpr double kFloorWeight = 1000.0, kFloor = 0.57, kFloorIsotropic = 0.62, kFloorUnaligned = 0.656;
 /// At kinks lengths may be off by so many parts in a hundred: in the polish, and when topology is settled.
 constexpr double kRough = 4.0, kFine = 0.2;
-double last_obtuse(Effort effort) { return effort == Effort::best ? 6.0 : 13.5; }
+double last_obtuse(Effort effort) { return effort == Effort::best ? 6.0 : 9.0; }
 /// Of misalignment there may be left: this, and so much more for each unit of energy.
 constexpr double kLeftAlways = 0.066, kLeftByEnergy = 0.42;
 /// Of shapes 1 - eta may be left in the mean: as much as the cv of lengths where that is kEven, and a little more than in
