@@ -28,6 +28,17 @@ function report(binary, args) {
   return { ...JSON.parse(stdout), met: status === 0 };
 }
 
+/** The same, of a run in the time of the fastest of several where one takes little: others at work make any one slower. */
+function timedReport(binary, args) {
+  let best = report(binary, args);
+  for (let spent = best.seconds.total; spent < 1 && best.seconds.total < 0.3; ) {
+    const again = report(binary, args);
+    spent += again.seconds.total + 0.02;
+    if (again.seconds.total < best.seconds.total) best = again;
+  }
+  return best;
+}
+
 const digits = (value) => (value === null ? '-' : value.toFixed(3));
 const four = (s) => [s.min, s.mean, s.max, s.cv].map(digits).join(' ');
 
@@ -103,7 +114,7 @@ export function fullTable(binary, efforts) {
   for (const effort of efforts)
     for (const [name, scale, ...more] of full) {
       const args = ['adapt', '--case', name, ...(scale === 1 ? [] : ['--size-scale', String(scale)]), '--effort', effort, ...more];
-      lines.push(worstRow(`\`${args.join(' ')}\``, seeds.map((seed) => report(binary, [...args, '--seed', seed]))));
+      lines.push(worstRow(`\`${args.join(' ')}\``, seeds.map((seed) => timedReport(binary, [...args, '--seed', seed]))));
     }
   return lines.join('\n');
 }
