@@ -1,8 +1,12 @@
 #include "pillowmesh/metric/expression.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -123,6 +127,51 @@ TEST_CASE("rewritten powers and rotations keep their values") {
 TEST_CASE("names may be reused by later statements and assigned again") {
   CHECK(value("a = 2; b = a*x; a = b + a;", 0.5) == 3.0);
   CHECK(value("r = 3; a = r") == 3.0);
+}
+
+TEST_CASE("arithmetic done two operations at a time has the bits of one after the other") {
+  std::mt19937 random(7);
+  const auto below = [&](unsigned n) { return static_cast<int>(random() % n); };
+  // A formula, and what C++ makes of it.
+  struct Made {
+    std::string text;
+    std::function<double(double, double)> f;
+  };
+  const std::function<Made(int)> make = [&](int depth) -> Made {
+    if (depth == 0) {
+      const int which = below(4);
+      if (which == 0) return {"x", [](double x, double) { return x; }};
+      if (which == 1) return {"y", [](double, double y) { return y; }};
+      const double c = 0.25 * (1 + below(9)) + 0.1;
+      std::ostringstream text;
+      text.precision(17);
+      text << c;
+      return {text.str(), [c](double, double) { return c; }};
+    }
+    // Both are other numbers each time: what is equal would be computed once.
+    const Made a = make(below(depth)), b = make(below(depth));
+    const std::string text = "(" + a.text + " " + std::string(1, "+-*/"[below(4)]) + " " + b.text + ")";
+    const char op = text[1 + a.text.size() + 1];
+    return {text, [a, b, op](double x, double y) {
+              const double u = a.f(x, y), v = b.f(x, y);
+              return op == '+' ? u + v : (op == '-' ? u - v : (op == '*' ? u * v : u / v));
+            }};
+  };
+  std::size_t shorter = 0;
+  for (int round = 0; round < 300; ++round) {
+    const Made made = make(6);
+    std::vector<std::array<double, 3>> points;
+    for (int i = 0; i < 20; ++i) points.push_back({1.0 + 0.37 * i, 2.3 - 0.11 * i, 0});
+    INFO(made.text);
+    const std::vector<double> got = values("a = " + made.text, points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double expected = made.f(points[i][0], points[i][1]);
+      if (std::isfinite(expected)) CHECK(got[i] == expected);
+    }
+    const auto operations = std::count(made.text.begin(), made.text.end(), '(');
+    shorter += static_cast<std::ptrdiff_t>(compile("a = " + made.text).code().size()) < operations ? 1 : 0;
+  }
+  CHECK(shorter > 100);
 }
 
 TEST_CASE("constants are folded away") {

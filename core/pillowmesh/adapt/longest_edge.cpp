@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,17 +37,32 @@ double longest_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
 }
 
 std::vector<std::array<VertexId, 2>> longer_edges(const Mesh<2>& mesh, const MetricField<2>& field, double length) {
-  // By chance, the rules for five samples agree on a length that is off by a few hundredths.
-  constexpr double nearly = 0.8;
   auto edges = free_edges(mesh);
-  std::vector<unsigned char> tagged(edges.size());
-  tag_long_edges<2>(field, mesh.points, edges, nearly * length, 0.0, tagged);
   const auto keep = [&](auto&& which) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < edges.size(); ++i)
       if (which(i)) edges[count++] = edges[i];
     edges.resize(count);
   };
+  // Three samples, two of them shared with other edges, tell of most that they are much shorter.
+  constexpr double much = 0.65;
+  {
+    std::vector<Point<2>> points(edges.size());
+    for (std::size_t i = 0; i < edges.size(); ++i) points[i] = 0.5 * (mesh.points[edges[i][0]] + mesh.points[edges[i][1]]);
+    std::vector<SymTensor<2>> ends(mesh.points.size()), middles(edges.size());
+    field.evaluate(mesh.points, ends);
+    field.evaluate(points, middles);
+    keep([&](std::size_t i) {
+      const Point<2> e = mesh.points[edges[i][1]] - mesh.points[edges[i][0]];
+      const auto speed = [&](const SymTensor<2>& M) { return std::sqrt(dot(M, e, e)); };
+      const double outer = 0.5 * (speed(ends[edges[i][0]]) + speed(ends[edges[i][1]])), inner = speed(middles[i]);
+      return !(std::max(outer, inner) < much * length);
+    });
+  }
+  // By chance, the rules for five samples agree on a length that is off by a few hundredths.
+  constexpr double nearly = 0.8;
+  std::vector<unsigned char> tagged(edges.size());
+  tag_long_edges<2>(field, mesh.points, edges, nearly * length, 0.0, tagged);
   keep([&](std::size_t i) { return tagged[i] != 0; });
   const auto lengths = lengths_of<2>(edges, mesh, field);
   keep([&](std::size_t i) { return lengths[i] > length; });

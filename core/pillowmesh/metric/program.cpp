@@ -55,6 +55,16 @@ int cost(Op op) {
   }
 }
 
+bool is_arithmetic(Op op) { return op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::divide; }
+
+// Two of arithmetic in one instruction: most of what one takes is to load and to store. In WebAssembly the code would
+// have to be loaded, too.
+#if defined(__wasm__)
+constexpr bool kPairs = false;
+#else
+constexpr bool kPairs = true;
+#endif
+
 // A side of an `if` cheaper than this is computed without asking whether any point needs it.
 constexpr int kWorthSkipping = 6;
 
@@ -62,13 +72,15 @@ constexpr int kWorthSkipping = 6;
 
 class ProgramBuilder {
  public:
-  ProgramBuilder(const Graph& graph, std::span<const NodeId> outputs) : nodes_(graph.nodes()), outputs_(outputs) {}
+  ProgramBuilder(const Graph& graph, std::span<const NodeId> outputs)
+      : nodes_(graph.nodes()), outputs_(outputs), first_(nodes_.size(), kNoNode), in_pair_(nodes_.size(), false) {}
 
   Expected<Program> run() {
     find_places();
+    if (kPairs) find_pairs();
     members_.resize(places_.size());
     for (NodeId id = 0; id < node_count(); ++id) {
-      if (place_[id] != kUnused && cost(nodes_[id].op) > 0) members_[place_[id]].push_back(id);
+      if (place_[id] != kUnused && cost(nodes_[id].op) > 0 && !in_pair_[id]) members_[place_[id]].push_back(id);
     }
     schedule(0);
     return assign_registers();
@@ -112,6 +124,37 @@ class ProgramBuilder {
     }
   }
 
+  // Operations whose result nobody needs but the next one, at the same place.
+  void find_pairs() {
+    std::vector<int> uses(nodes_.size(), 0);
+    for (const NodeId id : outputs_) ++uses[id];
+    for (NodeId id = 0; id < node_count(); ++id)
+      for (int i = 0; place_[id] != kUnused && i < operand_count(nodes_[id].op); ++i) ++uses[nodes_[id].operands[i]];
+    for (NodeId id = 0; id < node_count(); ++id) {
+      if (place_[id] == kUnused || !is_arithmetic(nodes_[id].op)) continue;
+      for (int i = 0; i < 2 && first_[id] == kNoNode; ++i) {
+        const NodeId operand = nodes_[id].operands[i];
+        if (!is_arithmetic(nodes_[operand].op) || uses[operand] != 1 || place_[operand] != place_[id] || first_[operand] != kNoNode)
+          continue;
+        first_[id] = operand;
+        in_pair_[operand] = true;
+      }
+    }
+  }
+
+  // What a line reads.
+  struct Operands {
+    std::array<NodeId, 3> ids{kNoNode, kNoNode, kNoNode};
+    int count = 0;
+  };
+  [[nodiscard]] Operands operands_of(const Line& line) const {
+    const Node& node = nodes_[line.node];
+    if (line.jump != Op::constant) return {{line.node}, 1};
+    const NodeId first = first_[line.node];
+    if (first == kNoNode) return {node.operands, operand_count(node.op)};
+    return {{nodes_[first].operands[0], nodes_[first].operands[1], node.operands[node.operands[0] == first ? 1 : 0]}, 3};
+  }
+
   // The nodes of a place in order; the sides of an `if` just before the `if` itself, by when all that they use from
   // outside is there.
   void schedule(int place) {
@@ -123,7 +166,9 @@ class ProgramBuilder {
           schedule(side_[id][k]);
           int work = 0;
           for (std::size_t i = jump + 1; i < lines_.size(); ++i) {
-            work += lines_[i].jump == Op::constant ? cost(nodes_[lines_[i].node].op) : 0;
+            const NodeId node = lines_[i].node;
+            if (lines_[i].jump != Op::constant) continue;
+            work += cost(nodes_[node].op) + (first_[node] != kNoNode ? cost(nodes_[first_[node]].op) : 0);
           }
           if (work >= kWorthSkipping) {
             lines_[jump].length = static_cast<int>(lines_.size() - jump - 1);
@@ -142,11 +187,8 @@ class ProgramBuilder {
     constexpr int kForever = 1 << 30;
     std::vector<int> last_use(nodes_.size(), -1);
     for (int i = 0; i < static_cast<int>(lines_.size()); ++i) {
-      const Line& line = lines_[i];
-      const bool jump = line.jump != Op::constant;
-      if (jump) last_use[line.node] = i;
-      for (int k = 0; !jump && k < operand_count(nodes_[line.node].op); ++k)
-        last_use[nodes_[line.node].operands[k]] = i;
+      const Operands operands = operands_of(lines_[i]);
+      for (int k = 0; k < operands.count; ++k) last_use[operands.ids[k]] = i;
     }
     for (const NodeId id : outputs_) last_use[id] = kForever;
 
@@ -173,16 +215,24 @@ class ProgramBuilder {
       const Node& node = nodes_[line.node];
       Program::Instruction instruction;
       if (line.jump != Op::constant) {
-        instruction = {line.jump, 0, register_[line.node], 0, static_cast<std::int16_t>(line.length)};
+        instruction.op = line.jump;
+        instruction.a = register_[line.node];
+        instruction.c = static_cast<std::int16_t>(line.length);
       } else {
         // The result never shares a register with an operand: the loops of run() may assume no aliasing.
         if (free.empty()) free.push_back(static_cast<std::int16_t>(program.registers_++));
         if (program.registers_ > Program::kMaxRegisters) return too_complex();
         instruction.op = node.op;
+        if (const NodeId first = first_[line.node]; first != kNoNode) {
+          instruction.op = nodes_[first].op;
+          instruction.then = node.op;
+          instruction.second = node.operands[0] != first;
+        }
         instruction.out = register_[line.node] = free.back();
         free.pop_back();
         std::int16_t* const fields[] = {&instruction.a, &instruction.b, &instruction.c};
-        for (int k = 0; k < operand_count(node.op); ++k) *fields[k] = register_[node.operands[k]];
+        const Operands operands = operands_of(line);
+        for (int k = 0; k < operands.count; ++k) *fields[k] = register_[operands.ids[k]];
       }
       program.code_.push_back(instruction);
       release(line, i, last_use, free, program.axes_);
@@ -197,8 +247,8 @@ class ProgramBuilder {
       last_use[id] = -1;
       if (register_[id] >= axes) free.push_back(register_[id]);
     };
-    if (line.jump != Op::constant) return end(line.node);
-    for (int k = 0; k < operand_count(nodes_[line.node].op); ++k) end(nodes_[line.node].operands[k]);
+    const Operands operands = operands_of(line);
+    for (int k = 0; k < operands.count; ++k) end(operands.ids[k]);
   }
 
   static Status too_complex() { return Status::usage("the formula keeps too many values at once; simplify it"); }
@@ -210,6 +260,8 @@ class ProgramBuilder {
   std::vector<std::array<int, 2>> side_;      // of each select
   std::vector<std::vector<NodeId>> members_;  // of each place, in order
   std::vector<Line> lines_;
+  std::vector<NodeId> first_;           // of a pair, of each node that is the second of one
+  std::vector<bool> in_pair_;           // the first of one
   std::vector<std::int16_t> register_;  // of each node
 };
 

@@ -31,6 +31,9 @@ class Program {
 
   struct Instruction {
     Op op = Op::constant;
+    /// Of a pair: what is done with a op b, as the first operand, and c; or with c and a op b, as the second.
+    Op then = Op::constant;
+    bool second = false;
     /// Registers; ~i names constant i. `c` of a skip is the number of instructions that it jumps over.
     std::int16_t out = 0, a = 0, b = 0, c = 0;
   };

@@ -26,6 +26,29 @@ PILLOWMESH_LANES void map(double* __restrict out, const double* a, const double*
   }
 }
 
+#if !defined(__wasm__)
+template <class F>
+PILLOWMESH_LANES void map(double* __restrict out, const double* a, const double* b, const double* c, int n, F f) {
+  for (int i = 0; i < n; i += kGroup) {
+    for (int k = 0; k < kGroup; ++k) out[i + k] = f(a[i + k], b[i + k], c[i + k]);
+  }
+}
+
+/// f of a and b, and then c.
+template <class F>
+PILLOWMESH_LANES void map_pair(double* __restrict out, const double* a, const double* b, const double* c, int n, Op then,
+                               bool second, F f) {
+  if (then == Op::add) return map(out, a, b, c, n, [f](double u, double v, double w) { return f(u, v) + w; });
+  if (then == Op::multiply) return map(out, a, b, c, n, [f](double u, double v, double w) { return f(u, v) * w; });
+  if (then == Op::subtract) {
+    if (second) return map(out, a, b, c, n, [f](double u, double v, double w) { return w - f(u, v); });
+    return map(out, a, b, c, n, [f](double u, double v, double w) { return f(u, v) - w; });
+  }
+  if (second) return map(out, a, b, c, n, [f](double u, double v, double w) { return w / f(u, v); });
+  map(out, a, b, c, n, [f](double u, double v, double w) { return f(u, v) / w; });
+}
+#endif
+
 #if defined(__wasm__)
 template <class F, class Exact>
 void map_turns(double* out, const double* a, int n, F, Exact exact) {
@@ -98,6 +121,21 @@ PILLOWMESH_LANES void Program::run_code(const Lanes* coordinates, int count, std
     const double* a = lanes(i.a);
     const double* b = lanes(i.b);
     double* out = registers + i.out * kLanes;
+#if !defined(__wasm__)
+    if (i.then != Op::constant) {
+      const double* c = lanes(i.c);
+      if (i.op == Op::add) {
+        map_pair(out, a, b, c, n, i.then, i.second, [](double u, double v) { return u + v; });
+      } else if (i.op == Op::subtract) {
+        map_pair(out, a, b, c, n, i.then, i.second, [](double u, double v) { return u - v; });
+      } else if (i.op == Op::multiply) {
+        map_pair(out, a, b, c, n, i.then, i.second, [](double u, double v) { return u * v; });
+      } else {
+        map_pair(out, a, b, c, n, i.then, i.second, [](double u, double v) { return u / v; });
+      }
+      continue;
+    }
+#endif
     switch (i.op) {
       case Op::add:
         map(out, a, b, n, [](double u, double v) { return u + v; });
