@@ -50,17 +50,6 @@ TEST_CASE("tags are the edges longer than the threshold, whatever cell looks at 
   }
 }
 
-TEST_CASE("a coarse mesh is looked at more coarsely, for edges that are to be as much longer") {
-  // A crease between the even samples of a panel, unless that is short enough.
-  const auto mesh = make_grid<2>({2, 1}, Point<2>(0, 0), Point<2>(2, 1));
-  const auto field = *MetricField<2>::from_formula("h = if(abs(x - 0.537) < 0.003, 0.001, 1)");
-  for (const int coarser : {1, 64}) {
-    Tagging<2> tagging(mesh, 2.0, coarser);
-    EdgeTags<2> tags;
-    CHECK(tagging.tag_long_edges(mesh, field, tags).empty() == (coarser == 64));
-  }
-}
-
 TEST_CASE("only the edges of cells that are to be looked at again are measured") {
   auto mesh = make_grid<2>({4, 1}, Point<2>(0, 0), Point<2>(4, 1));
   const auto field = *MetricField<2>::from_formula("h = 1");

@@ -1,5 +1,6 @@
 #include "pillowmesh/adapt/trial.h"
 
+#include <algorithm>
 #include <limits>
 #include <random>
 
@@ -79,7 +80,7 @@ TEST_CASE("shapes are left as they are where an edge would become too long") {
     Trial trial(mesh, sizes, {});
     const Mesh<2> crumpled = mesh;
     const double energy = trial.relocator.total_energy();
-    trial.longest = 0.0;
+    trial.longest_allowed = 0.0;
     trial.mend_shapes(0.5);
     CHECK(corpus::identical(mesh, crumpled));
     CHECK(trial.relocator.total_energy() == energy);
@@ -93,7 +94,7 @@ TEST_CASE("no change is kept that leaves a longer edge than is allowed") {
   const auto kept = [&](double longest) {
     Trial trial(mesh, sizes, {});
     LocalSearch search(mesh, trial, 1);
-    trial.longest = longest;
+    trial.longest_allowed = longest;
     for (int pass = 0; pass < 3; ++pass)
       for (search.begin_pass(0.0); search.continue_pass(1000);) {}
     std::int64_t count = 0;

@@ -90,7 +90,6 @@ struct Adapter<Dim>::State {
       if (outcome.ok() && full_adaptation(options))
         improvement = std::make_unique<FullAdaptation>(mesh, field, options, recorder, operations);
     target = aim();
-    if (improvement) tagging = Tagging<Dim>(mesh, options.threshold, improvement->coarser());
     if constexpr (Dim == 3)
       if (outcome.ok() && continuation.steep() && options.continuation < 0 && options.smoothing != Smoothing::none) {
         options.threshold = threshold_for(mesh, field, requested);
@@ -364,7 +363,7 @@ struct Adapter<Dim>::State {
   /// Again from step 1, on a mesh that operators have changed.
   void insert_layers() {
     tags.mask.assign(mesh.cells.size(), 0);
-    tagging = Tagging<Dim>(mesh, options.threshold, improvement->coarser());
+    tagging = Tagging<Dim>(mesh, options.threshold);
     if constexpr (Dim == 2)
       if (!improvement->too_long().empty()) tagging.look_at(mesh, improvement->too_long());
     first_iteration = iteration;

@@ -134,7 +134,7 @@ void Schedule::next_pass() {
   if (pass_ <= budget_.hot_passes && pass_ % kPassesToBalance == 0) balance_alignment();
   if (pass_ == budget_.hot_passes) {
     trial_.touch_all();
-    if (budget_.cold_above > 0.0) trial_.longest = options_.threshold;  // nothing comes after them that would shorten an edge
+    if (budget_.cold_above > 0.0) trial_.longest_allowed = options_.threshold;  // nothing comes after them that would shorten an edge
   }
   search_.begin_pass(temperature(), pass_ < budget_.hot_passes ? 0.0 : budget_.cold_above);
   stage_ = Stage::pass;
@@ -184,10 +184,12 @@ void Schedule::adjust_balance() {
   trial_.relocator.measure_all(weights);
 }
 
+/// Done, but for shapes.
 void Schedule::finish() {
   stage_ = Stage::done;
   if (budget_.least_shape == 0.0) return;
   recorder_.before_relocation(mesh_);
+  trial_.longest_allowed = options_.threshold;
   trial_.mend_shapes(budget_.least_shape);
   if (options_.record) recorder_.relocation(mesh_, iteration_, trial_.relocator.total_energy());
 }

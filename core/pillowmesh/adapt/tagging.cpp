@@ -22,8 +22,8 @@ void sort_marked(std::vector<CellId>& cells, const std::vector<std::uint8_t>& ma
 }  // namespace
 
 template <int Dim>
-Tagging<Dim>::Tagging(const Mesh<Dim>& mesh, double threshold, int coarser)
-    : threshold_(threshold), panel_(coarser * default_panel<Dim>(mesh.points)) {
+Tagging<Dim>::Tagging(const Mesh<Dim>& mesh, double threshold)
+    : threshold_(threshold), panel_(default_panel<Dim>(mesh.points)) {
   look_at_all(mesh);
 }
 
@@ -62,6 +62,7 @@ template <int Dim>
 void Tagging<Dim>::look_at(const Mesh<Dim>& mesh, std::span<const std::array<VertexId, 2>> edges) {
   for (const CellId c : list_) changed_[c] = 0;
   list_.clear();
+  waiting_.clear();
   std::vector<std::uint8_t> is_end(mesh.points.size(), 0);
   for (const auto& [a, b] : edges) is_end[a] = is_end[b] = 1;
   for (CellId c = 0; c < mesh.cell_count(); ++c) {

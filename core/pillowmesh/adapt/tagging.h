@@ -15,13 +15,12 @@ template <int Dim>
 class Tagging {
  public:
   /// Every cell is looked at first. `threshold`: metric length above which an edge is tagged.
-  /// \param coarser how many times as long as in the end edges are to be for now: as much narrower features do not count yet
-  Tagging(const Mesh<Dim>& mesh, double threshold, int coarser = 1);
+  Tagging(const Mesh<Dim>& mesh, double threshold);
 
   /// The edges of this cell are to be measured again.
   void look_again(CellId c);
   void look_at_all(const Mesh<Dim>& mesh);
-  /// Only the cells at these edges are to be measured. Cost: linear in the mesh.
+  /// Only cells with two ends of these edges are to be measured. Cost: linear in the mesh.
   void look_at(const Mesh<Dim>& mesh, std::span<const std::array<VertexId, 2>> edges);
 
   /// No layer could be inserted at this cell: its edges are measured again in the next call, after a fourth refusal in the

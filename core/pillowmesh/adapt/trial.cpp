@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pillowmesh/coarsen/diagonal_collapse.h"
+#include "pillowmesh/mesh/overlap.h"
 #include "pillowmesh/mesh/portable_math.h"
 #include "pillowmesh/smooth/quad_descent.h"
 
@@ -129,6 +130,11 @@ bool Trial::untangle() {
   return false;
 }
 
+/// Whether the mesh lies over itself at one of the vertices: untangled corners may be positive, and go around it twice.
+bool Trial::folded(const std::vector<VertexId>& vertices) const {
+  return std::any_of(vertices.begin(), vertices.end(), [&](VertexId v) { return folded_at(mesh_, v); });
+}
+
 void Trial::collect_near() {
   stamp_.resize(mesh_.points.size(), 0);
   ++stamp_now_;
@@ -201,7 +207,7 @@ bool Trial::attempt(Operator op, double threshold) {
     if (hopeless(relax(far_), patient.far_hope)) return refuse(count.hopeless);
   }
   refused_growth = change;
-  if (change > threshold || relocator.longest_changed() > longest) return refuse(count.hopeless);
+  if (change > threshold || relocator.longest_changed() > longest_allowed || folded(far_)) return refuse(count.hopeless);
   keep(op, far_);
   return true;
 }
@@ -228,7 +234,7 @@ bool Trial::attempt_at_large(Operator op, double threshold) {
     QuadDescent descent(mesh_, relocator);
     double left = relocator.total_energy() - (before + threshold), gain = left;
     for (int i = 0; i < kIterations && left > 0.0 && gain > 0.0 && left < kHope * gain; ++i) left -= gain = descent.iterate();
-    good = left < 0.0;
+    good = left < 0.0 && !folded(journal_.vertices());
   }
   if (good) {
     keep(op, journal_.vertices());
@@ -242,7 +248,7 @@ bool Trial::attempt_at_large(Operator op, double threshold) {
 
 void Trial::mend_shapes(double eta) {
   constexpr int kRounds = 4;
-  constexpr double kWeight = 30.0;
+  constexpr double kWeight = 30.0;  // as in the polish
   const double before = relocator.weights().shape;
   for (const CellId c : relocator.cells_below(eta)) {
     journal_.begin();
@@ -252,7 +258,7 @@ void Trial::mend_shapes(double eta) {
       for (const VertexId v : mesh_.cells[c]) relocator.relocate(v), ++moves;
     relocator.set_shape(before);
     relocator.refresh_changed();
-    if (!(relocator.longest_changed() > longest)) continue;
+    if (relocator.longest_changed() <= longest_allowed) continue;
     journal_.undo();
     relocator.undo();
   }

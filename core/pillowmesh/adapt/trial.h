@@ -57,8 +57,8 @@ class Trial {
   /// No change comes any more, sweeps alone: gives back what only changes need.
   void release();
 
-  /// No change of `attempt` may leave a longer edge around it, nor may `mend_shapes`.
-  double longest = std::numeric_limits<double>::infinity();
+  /// No cell that `attempt` or `mend_shapes` changes may have a longer edge afterwards, whatever it had before.
+  double longest_allowed = std::numeric_limits<double>::infinity();
 
   Cavity cavity;
   QuadRelocator relocator;
@@ -81,6 +81,7 @@ class Trial {
   bool valences_allow();
   bool measure();
   bool untangle();
+  [[nodiscard]] bool folded(const std::vector<VertexId>& vertices) const;
   void collect_near();
   void collect_far(int rings);
   double relax(const std::vector<VertexId>& vertices);

@@ -5,6 +5,7 @@
 
 #include "pillowmesh/mesh/defect_text.h"
 #include "pillowmesh/mesh/jacobian.h"
+#include "pillowmesh/mesh/overlap.h"
 #include "pillowmesh/mesh/topology.h"
 
 namespace pillowmesh {
@@ -186,8 +187,22 @@ std::vector<Defect> find_inside_defects(const Mesh<Dim>& mesh, int most) {
 }
 
 template <int Dim>
+std::vector<Defect> find_overlaps(const Mesh<Dim>& mesh, int most) {
+  std::vector<Defect> out;
+  if constexpr (Dim == 2) {
+    OrderedStar star;
+    for (VertexId v = 0; v < mesh.vertex_count() && static_cast<int>(out.size()) < most; ++v)
+      if (find_star(mesh, v, star) && overlaps(mesh, v, star))
+        out.push_back({Defect::Kind::overlapping_cells, mesh.vertex_cell[v], v,
+                       "the cells at vertex " + std::to_string(v) + " " + place<2>(mesh.points[v]) + " overlap"});
+  }
+  return out;
+}
+
+template <int Dim>
 std::vector<Defect> find_defects(const Mesh<Dim>& mesh, int most) {
   std::vector<Defect> out = find_cell_defects(mesh, most);
+  const bool cells_hold = out.empty();
   const auto extend = [&](std::vector<Defect> more) {
     for (auto& d : more)
       if (static_cast<int>(out.size()) < most) out.push_back(std::move(d));
@@ -200,6 +215,7 @@ std::vector<Defect> find_defects(const Mesh<Dim>& mesh, int most) {
   extend(std::move(adjacency));
   if (connected) extend(find_support_defects(mesh, most));
   if (connected) extend(find_hanging_nodes(mesh, most));
+  if (connected && cells_hold) extend(find_overlaps(mesh, most));
   return out;
 }
 
@@ -236,6 +252,7 @@ Status validate(const Mesh<Dim>& mesh) {
 #define PILLOWMESH_INSTANTIATE(Dim)                                                            \
   template std::vector<Defect> find_cell_defects(const Mesh<Dim>&, int);                       \
   template std::vector<Defect> find_adjacency_defects(const Mesh<Dim>&, int);                  \
+  template std::vector<Defect> find_overlaps(const Mesh<Dim>&, int);                           \
   template std::vector<Defect> find_defects(const Mesh<Dim>&, int);                            \
   template std::vector<Defect> find_inside_defects(const Mesh<Dim>&, int);                     \
   template std::string describe<Dim>(const std::vector<Defect>&, int, std::span<const Index>); \

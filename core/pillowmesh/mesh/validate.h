@@ -25,6 +25,7 @@ struct Defect {
     hanging_node,          ///< a boundary vertex lies inside another boundary facet
     broken_adjacency,      ///< twins or vertex_cell do not match the cells (a defect of pillowmesh)
     broken_support,        ///< a boundary vertex is not classified as such, or not on its patch
+    overlapping_cells,     ///< the cells at a vertex go around it more than once (2D)
   };
   Kind kind;
   CellId cell = kNone;
@@ -49,6 +50,9 @@ std::vector<Defect> find_hanging_nodes(const Mesh<Dim>& mesh, int most);
 /// at inner points can use the mesh. Cost: linear, about five times find_cell_defects.
 template <int Dim>
 std::vector<Defect> find_inside_defects(const Mesh<Dim>& mesh, int most = 20);
+/// 2D: vertices whose cells overlap, although all corners are positive; none in 3D. \pre no defects of cells or adjacency
+template <int Dim>
+std::vector<Defect> find_overlaps(const Mesh<Dim>& mesh, int most);
 /// Vertex supports of a classified mesh against its boundary facets.
 template <int Dim>
 std::vector<Defect> find_support_defects(const Mesh<Dim>& mesh, int most);

@@ -72,12 +72,12 @@ constexpr int kWorthSkipping = 6;
 
 class ProgramBuilder {
  public:
-  ProgramBuilder(const Graph& graph, std::span<const NodeId> outputs)
-      : nodes_(graph.nodes()), outputs_(outputs), first_(nodes_.size(), kNoNode), in_pair_(nodes_.size(), false) {}
+  ProgramBuilder(const Graph& graph, std::span<const NodeId> outputs, bool pairs)
+      : nodes_(graph.nodes()), outputs_(outputs), pairs_(pairs), first_(nodes_.size(), kNoNode), in_pair_(nodes_.size(), false) {}
 
   Expected<Program> run() {
     find_places();
-    if (kPairs) find_pairs();
+    if (pairs_) find_pairs();
     members_.resize(places_.size());
     for (NodeId id = 0; id < node_count(); ++id) {
       if (place_[id] != kUnused && cost(nodes_[id].op) > 0 && !in_pair_[id]) members_[place_[id]].push_back(id);
@@ -255,6 +255,7 @@ class ProgramBuilder {
 
   const std::vector<Node>& nodes_;
   std::span<const NodeId> outputs_;
+  bool pairs_;
   std::vector<Place> places_;
   std::vector<int> place_;                    // of each node
   std::vector<std::array<int, 2>> side_;      // of each select
@@ -266,7 +267,10 @@ class ProgramBuilder {
 };
 
 Expected<Program> Program::compile(const Graph& graph, std::span<const NodeId> outputs) {
-  return ProgramBuilder(graph, outputs).run();
+  // The operands of a pair live longer than the result of its first would.
+  if (kPairs)
+    if (auto program = ProgramBuilder(graph, outputs, true).run()) return program;
+  return ProgramBuilder(graph, outputs, false).run();
 }
 
 }  // namespace pillowmesh

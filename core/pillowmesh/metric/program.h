@@ -18,7 +18,7 @@ inline constexpr int kLanes = 64;
 using Lanes = std::array<double, kLanes>;
 
 /// Straight-line code over registers of kLanes numbers. Both sides of an `if` are code; a side that no point of the
-/// batch needs is jumped over when it is worth a jump. Immutable, safe to run from several threads.
+/// batch needs is jumped over when it is worth a jump. An instruction is one operation, or two of arithmetic. Immutable, safe to run from several threads.
 class Program {
  public:
   /// Code for the values `outputs` of `graph`, and for nothing else.
@@ -31,9 +31,8 @@ class Program {
 
   struct Instruction {
     Op op = Op::constant;
-    /// Of a pair: what is done with a op b, as the first operand, and c; or with c and a op b, as the second.
-    Op then = Op::constant;
-    bool second = false;
+    Op then = Op::constant;  ///< what is done with a op b and c; constant: nothing
+    bool second = false;     ///< a op b is the second operand of that
     /// Registers; ~i names constant i. `c` of a skip is the number of instructions that it jumps over.
     std::int16_t out = 0, a = 0, b = 0, c = 0;
   };

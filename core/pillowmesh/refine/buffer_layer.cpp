@@ -4,6 +4,7 @@
 
 #include "pillowmesh/mesh/frozen.h"
 #include "pillowmesh/mesh/jacobian.h"
+#include "pillowmesh/mesh/overlap.h"
 #include "pillowmesh/mesh/slide.h"
 #include "pillowmesh/refine/make_room.h"
 
@@ -136,6 +137,17 @@ class Inserter {
   }
 
   /// All cells with new corners are valid. Those at vertices that made way have been looked at when they did.
+  /// Whether new vertices have come to lie where the boundary would go back and forth: far across a bend they slide anywhere.
+  bool folded() const {
+    if constexpr (Dim == 2) {
+      const auto bad = [&](VertexId v) { return mesh_.support[v].dim < 2 && folded_at(mesh_, v); };
+      for (VertexId v = layer_.first_vertex; v < mesh_.vertex_count(); ++v)
+        if (bad(v)) return true;
+      return std::any_of(hull_.vertices.begin(), hull_.vertices.end(), bad);
+    }
+    return false;
+  }
+
   bool positive() const {
     for (CellId k = layer_.first_cell; k < mesh_.cell_count(); ++k)
       if (!good(mesh_.cells[k])) return false;
@@ -340,7 +352,7 @@ Status try_to_insert(Mesh<Dim>& mesh, std::span<const CellId> shrink_set, std::s
       break;
     }
     const bool last = attempt + 1 == shrinks.size();
-    if (inserter.positive() || (last && inserter.make_room())) break;
+    if ((inserter.positive() || (last && inserter.make_room())) && !inserter.folded()) break;
     inserter.undo();
     status = Status::illegal("no position of the new vertices keeps all corner Jacobians positive");
   }

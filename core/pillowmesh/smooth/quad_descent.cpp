@@ -1,8 +1,10 @@
 #include "pillowmesh/smooth/quad_descent.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
+#include "pillowmesh/mesh/overlap.h"
 #include "pillowmesh/mesh/slide.h"
 
 namespace pillowmesh {
@@ -65,7 +67,14 @@ double QuadDescent::energy_at(double step) {
     mesh_.points[v] = slide(*mesh_.geometry, mesh_.support[v], mesh_.anchor[v], mesh_.points[v]);
   }
   relocator_.measure_all(relocator_.weights());
-  return relocator_.total_energy();
+  return folded() ? std::numeric_limits<double>::infinity() : relocator_.total_energy();
+}
+
+/// Whether the mesh lies over itself at the boundary: inside it cannot, as long as no corner is inverted.
+bool QuadDescent::folded() const {
+  for (VertexId v = 0; v < mesh_.vertex_count(); ++v)
+    if (mesh_.vertex_cell[v] != kNone && mesh_.support[v].dim < 2 && folded_at(mesh_, v)) return true;
+  return false;
 }
 
 double QuadDescent::iterate() {

@@ -28,6 +28,7 @@ class QuadDescent {
  private:
   bool find_direction();
   double energy_at(double step);
+  [[nodiscard]] bool folded() const;
 
   Mesh<2>& mesh_;
   QuadRelocator& relocator_;

@@ -1,7 +1,9 @@
 #include "pillowmesh/smooth/quad_relocate.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "pillowmesh/mesh/overlap.h"
 #include "pillowmesh/mesh/slide.h"
 
 namespace pillowmesh {
@@ -235,6 +237,16 @@ void QuadRelocator::keep(VertexId v, const Point<2>& x) {
   }
 }
 
+/// Whether the mesh would lie over itself with a vertex of the boundary at x, at the vertex or at one beside it there.
+bool QuadRelocator::folds_at(VertexId v, const Point<2>& x, Index anchor) {
+  const Point<2> old = std::exchange(mesh_.points[v], x);
+  std::swap(mesh_.anchor[v], anchor);
+  const bool folded = folded_at(mesh_, v) || folded_at(mesh_, spokes_.end[0]) || folded_at(mesh_, spokes_.end[spoke_count_ - 1]);
+  std::swap(mesh_.anchor[v], anchor);
+  mesh_.points[v] = old;
+  return folded;
+}
+
 double QuadRelocator::relocate(VertexId v) {
   const VertexSupport support = mesh_.support[v];
   Derivatives sum;
@@ -253,6 +265,7 @@ double QuadRelocator::relocate(VertexId v) {
     if (support.dim == 1) y = slide(*mesh_.geometry, support, anchor, y);
     const double after = try_at(y, before);
     if (!(after < before + 1e-4 * scale * std::min(0.0, slope_along))) continue;
+    if (support.dim == 1 && weights_.delta == 0.0 && folds_at(v, y, anchor)) continue;
     keep(v, y);
     mesh_.anchor[v] = anchor;
     return before - after;

@@ -148,6 +148,7 @@ class QuadRelocator {
   bool collect(VertexId v);
   [[nodiscard]] bool shaped() const { return weights_.shape > 0.0; }
   [[nodiscard]] double least_squared_shape(CellId c) const;
+  bool folds_at(VertexId v, const Point<2>& x, Index anchor);
   [[nodiscard]] double length(const Point<2>& p, const Jet& P, const Point<2>& q, const Jet& Q) const;
   /// The spoke that comes again as number k.
   [[nodiscard]] int again(int k) const { return k < spoke_count_ ? k : (star_.closed ? k % spoke_count_ : spoke_count_ - 1); }
