@@ -91,6 +91,7 @@ TEST_CASE("full adaptation with effort fast leaves no cell out of shape, and no 
       CHECK(r.shape.min > 0.3);  // without mending 0.1 and less in iso2d
       CHECK(r.shape.mean > 0.8);
       CHECK(r.edge_length.cv < 0.2);
+      CHECK(r.edge_length.max < 1.01 * options.threshold);
     }
 }
 

@@ -104,6 +104,17 @@ TEST_CASE("no change is kept that leaves a longer edge than is allowed") {
   };
   CHECK(kept(0.1) == 0);
   CHECK(corpus::identical(mesh, given));
+  double longest = 0.0;
+  {
+    Trial trial(mesh, sizes, {});
+    for (CellId c = 0; c < mesh.cell_count(); ++c)
+      for (int side = 0; side < 4; ++side) longest = std::max(longest, trial.relocator.edge(c, side).l);
+  }
+  CHECK(kept(1.5 * longest) > 0);
+  Trial after(mesh, sizes, {});
+  for (CellId c = 0; c < mesh.cell_count(); ++c)
+    for (int side = 0; mesh.alive(c) && side < 4; ++side) CHECK(after.relocator.edge(c, side).l < 1.5 * longest * 1.02);
+  mesh = given;
   CHECK(kept(std::numeric_limits<double>::infinity()) > 10);
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,21 +43,6 @@ std::vector<std::array<VertexId, 2>> longer_edges(const Mesh<2>& mesh, const Met
       if (which(i)) edges[count++] = edges[i];
     edges.resize(count);
   };
-  // Three samples, two of them shared with other edges, tell of most that they are much shorter.
-  constexpr double much = 0.65;
-  {
-    std::vector<Point<2>> points(edges.size());
-    for (std::size_t i = 0; i < edges.size(); ++i) points[i] = 0.5 * (mesh.points[edges[i][0]] + mesh.points[edges[i][1]]);
-    std::vector<SymTensor<2>> ends(mesh.points.size()), middles(edges.size());
-    field.evaluate(mesh.points, ends);
-    field.evaluate(points, middles);
-    keep([&](std::size_t i) {
-      const Point<2> e = mesh.points[edges[i][1]] - mesh.points[edges[i][0]];
-      const auto speed = [&](const SymTensor<2>& M) { return std::sqrt(dot(M, e, e)); };
-      const double outer = 0.5 * (speed(ends[edges[i][0]]) + speed(ends[edges[i][1]])), inner = speed(middles[i]);
-      return !(std::max(outer, inner) < much * length);
-    });
-  }
   // By chance, the rules for five samples agree on a length that is off by a few hundredths.
   constexpr double nearly = 0.8;
   std::vector<unsigned char> tagged(edges.size());

@@ -17,8 +17,8 @@ inline constexpr double kLongestEdgeTolerance = 1e-3;
 template <int Dim>
 double longest_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field);
 
-/// The edges that are longer than `length` and not frozen. Cost: linear in the mesh; for most edges one and a half
-/// evaluations of the metric, where `longest_edge` takes seven.
+/// The edges that are longer than `length` and not frozen. Features of the metric narrower than a quarter of an
+/// edge may be missed. Cost: linear in the mesh; for most edges five evaluations of the metric, where `longest_edge` takes seven.
 std::vector<std::array<VertexId, 2>> longer_edges(const Mesh<2>& mesh, const MetricField<2>& field, double length);
 
 /// The mean metric length of the edges. Cost: linear in the mesh.

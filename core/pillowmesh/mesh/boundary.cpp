@@ -123,6 +123,8 @@ Expected<Mesh<Dim>> make_mesh(MeshInput<Dim> input, const BoundaryOptions& optio
   const auto adjacency = find_adjacency_defects(mesh, most);
   if (!adjacency.empty()) return refused(adjacency);
   classify_boundary(mesh, input, options);
+  const auto overlaps = find_overlaps(mesh, most);
+  if (!overlaps.empty()) return refused(overlaps);
   if (Status s = freeze(mesh, input, options.freeze); !s.ok()) return s;
   return mesh;
 }

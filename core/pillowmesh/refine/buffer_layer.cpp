@@ -140,10 +140,18 @@ class Inserter {
   /// Whether new vertices have come to lie where the boundary would go back and forth: far across a bend they slide anywhere.
   bool folded() const {
     if constexpr (Dim == 2) {
-      const auto bad = [&](VertexId v) { return mesh_.support[v].dim < 2 && folded_at(mesh_, v); };
+      OrderedStar star;
+      const auto bad = [&](VertexId v) {  // at v, or at a vertex beside it
+        if (mesh_.support[v].dim == 2 || !find_star(mesh_, v, star)) return false;
+        for (int k = 0; k < star.count; ++k)
+          for (const VertexId w : mesh_.cells[star.cell[k]])
+            if (mesh_.support[w].dim < 2 && folded_at(mesh_, w)) return true;
+        return false;
+      };
       for (VertexId v = layer_.first_vertex; v < mesh_.vertex_count(); ++v)
         if (bad(v)) return true;
-      return std::any_of(hull_.vertices.begin(), hull_.vertices.end(), bad);
+      return std::any_of(hull_.vertices.begin(), hull_.vertices.end(), bad) ||
+             std::any_of(layer_.moved.begin(), layer_.moved.end(), bad);
     }
     return false;
   }
