@@ -57,14 +57,6 @@ int cost(Op op) {
 
 bool is_arithmetic(Op op) { return op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::divide; }
 
-// Two of arithmetic in one instruction: most of what one takes is to load and to store. In WebAssembly the code would
-// have to be loaded, too.
-#if defined(__wasm__)
-constexpr bool kPairs = false;
-#else
-constexpr bool kPairs = true;
-#endif
-
 // A side of an `if` cheaper than this is computed without asking whether any point needs it.
 constexpr int kWorthSkipping = 6;
 
@@ -267,9 +259,9 @@ class ProgramBuilder {
 };
 
 Expected<Program> Program::compile(const Graph& graph, std::span<const NodeId> outputs) {
-  // The operands of a pair live longer than the result of its first would.
-  if (kPairs)
-    if (auto program = ProgramBuilder(graph, outputs, true).run()) return program;
+  // Two operations of arithmetic in one instruction: most of what one takes is to load and to store. Their operands live longer than
+  // the result of the first would.
+  if (auto program = ProgramBuilder(graph, outputs, true).run()) return program;
   return ProgramBuilder(graph, outputs, false).run();
 }
 

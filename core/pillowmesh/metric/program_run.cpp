@@ -26,7 +26,6 @@ PILLOWMESH_LANES void map(double* __restrict out, const double* a, const double*
   }
 }
 
-#if !defined(__wasm__)
 template <class F>
 PILLOWMESH_LANES void map(double* __restrict out, const double* a, const double* b, const double* c, int n, F f) {
   for (int i = 0; i < n; i += kGroup) {
@@ -47,7 +46,6 @@ PILLOWMESH_LANES void map_pair(double* __restrict out, const double* a, const do
   if (second) return map(out, a, b, c, n, [f](double u, double v, double w) { return w / f(u, v); });
   map(out, a, b, c, n, [f](double u, double v, double w) { return f(u, v) / w; });
 }
-#endif
 
 #if defined(__wasm__)
 template <class F, class Exact>
@@ -121,7 +119,6 @@ PILLOWMESH_LANES void Program::run_code(const Lanes* coordinates, int count, std
     const double* a = lanes(i.a);
     const double* b = lanes(i.b);
     double* out = registers + i.out * kLanes;
-#if !defined(__wasm__)
     if (i.then != Op::constant) {
       const double* c = lanes(i.c);
       if (i.op == Op::add) {
@@ -135,7 +132,6 @@ PILLOWMESH_LANES void Program::run_code(const Lanes* coordinates, int count, std
       }
       continue;
     }
-#endif
     switch (i.op) {
       case Op::add:
         map(out, a, b, n, [](double u, double v) { return u + v; });
