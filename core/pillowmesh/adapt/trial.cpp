@@ -207,7 +207,7 @@ bool Trial::attempt(Operator op, double threshold) {
     if (hopeless(relax(far_), patient.far_hope)) return refuse(count.hopeless);
   }
   refused_growth = change;
-  if (change > threshold || relocator.longest_changed() > longest_allowed || folded(far_)) return refuse(count.hopeless);
+  if (change > threshold || relocator.longest_changed() > longest_allowed || folded(near_)) return refuse(count.hopeless);
   keep(op, far_);
   return true;
 }
