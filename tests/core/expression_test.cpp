@@ -180,14 +180,14 @@ TEST_CASE("two operations of arithmetic are one instruction where nobody else ne
 }
 
 TEST_CASE("as many values may be alive at once as without that") {
-  std::string text, sum = "a = 0";
+  std::string text, sum = "a = x";
   for (int i = 0; i < 100; ++i) {
     const std::string n = std::to_string(i + 1);
     text += "v" + n + " = sin(" + n + "*x) + cos(" + n + "*x);";
-    sum += " + v" + n + "^3";
+    sum += " + v" + n;
   }
-  double expected = 0.0;
-  for (int i = 1; i <= 100; ++i) expected += std::pow(std::sin(i * 0.4) + std::cos(i * 0.4), 3);
+  double expected = 0.4;
+  for (int i = 1; i <= 100; ++i) expected += std::sin(i * 0.4) + std::cos(i * 0.4);
   CHECK(value(text + sum, 0.4) == Approx(expected));
 }
 
