@@ -65,7 +65,7 @@ Foot<2> foot_on_arc(const Point<2>& a, const Point<2>& b, const Circle& circle, 
   }
   foot.distance2 = (p - foot.point).squaredNorm();
   const Point<2> out = foot.point - circle.centre;
-  foot.tangent[0] = Point<2>(-out[1], out[0]);
+  foot.tangent[0] = turn * Point<2>(-out[1], out[0]);
   return foot;
 }
 

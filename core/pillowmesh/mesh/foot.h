@@ -11,7 +11,7 @@ struct Foot {
   Point<Dim> point;
   double distance2;
   int cut[Dim - 1];  ///< per parameter: 0 or 1 where the foot was cut off at that end of the piece, else kNone
-  /// Not of unit length. A curve has the first, a surface both; in 2D only the first is there.
+  /// Not of unit length, from the piece's first end to its second. A curve has the first, a surface both; in 2D only the first is there.
   Point<Dim> tangent[Dim - 1];
 };
 

@@ -11,7 +11,8 @@ namespace pillowmesh {
 template <int Dim>
 Point<Dim> slide(const Geometry<Dim>& geometry, VertexSupport support, Index& anchor, const Point<Dim>& target);
 
-/// Where boundary vertex v can go: along its curve (the first, in 3D twice), or on its patch. Not of unit length.
+/// Where boundary vertex v can go: along its curve (the first, in 3D twice), or on its patch. Not of unit length; in 2D
+/// the way of the facet that it is on, from its first vertex to its second.
 /// \pre support[v].dim is between 0 and Dim.
 template <int Dim>
 std::array<Point<Dim>, Dim - 1> tangents(const Mesh<Dim>& mesh, VertexId v);
