@@ -1,5 +1,6 @@
 #include "pillowmesh/adapt/full_adaptation.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "pillowmesh/adapt/halving.h"
@@ -43,10 +44,37 @@ int halvings_to_come(const Mesh<2>& mesh, const MetricField<2>& field, double id
 }
 
 /// Where lengths scatter by a tenth, an error of a fiftieth does not show: circle2d and shock2d are no better with a quarter of
-/// that error.
-BackgroundOptions background_options(Effort effort) {
-  if (effort == Effort::best) return {.tolerance = 5e-3, .smallest = 0.5};
+/// that error. Best takes a quarter where that fits into memory beside the mesh: kinks have three leaves for each quadrilateral then
+/// (shock2d, 58 000 quadrilaterals: 1000 bytes for each, and 610 with half of the leaves; cv .0472 and .0468, eta .961 both times).
+constexpr double kManyCells = 20'000;
+BackgroundOptions background_options(Effort effort, double cells) {
+  if (effort == Effort::best && cells < kManyCells) return {.tolerance = 5e-3, .smallest = 0.5};
   return {.tolerance = 2e-2, .smallest = 1.0};
+}
+
+/// Around new cells, and around edges that layers did not reach.
+constexpr int kMendedRings = 2;
+
+/// The vertices of cells from `first` on, which layers have made, of edges that may still be too long, and of the cells around.
+std::vector<VertexId> touched_by_layers(const Mesh<2>& mesh, CellId first, const std::vector<std::array<VertexId, 2>>& too_long) {
+  std::vector<unsigned char> near(mesh.points.size(), 0), touched;
+  const auto mark_cells = [&](auto&& which, std::vector<unsigned char>& marks) {
+    for (CellId c = 0; c < mesh.cell_count(); ++c)
+      if (mesh.alive(c) && which(c))
+        for (const VertexId v : mesh.cells[c]) marks[v] = 1;
+  };
+  mark_cells([&](CellId c) { return c >= first; }, near);
+  for (const auto& edge : too_long) near[edge[0]] = near[edge[1]] = 1;
+  touched = near;
+  for (int ring = 0; ring < kMendedRings; ++ring) {
+    const auto at_near = [&](CellId c) { return std::any_of(mesh.cells[c].begin(), mesh.cells[c].end(), [&](VertexId v) { return near[v] != 0; }); };
+    mark_cells(at_near, touched);
+    near = touched;
+  }
+  std::vector<VertexId> vertices;
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v)
+    if (touched[v] != 0) vertices.push_back(v);
+  return vertices;
 }
 
 /// What coarse meshes leave behind lies between what is in use, where the larger arrays of finer ones do not fit: it would be a
@@ -75,6 +103,7 @@ bool FullAdaptation::has_enough(const Mesh<2>& mesh) const {
 
 void FullAdaptation::begin(const Mesh<2>& mesh) {
   diced_ = 10 * mesh.cell_count() < 11 * cells_before_layers_;  // a few layers more only have to be mended
+  if (diced_) mended_vertices_ = touched_by_layers(mesh, cells_before_layers_, too_long_);
 }
 
 /// Lookups of the target. A mesh that was diced asks for much of what the coarse one has asked for.
@@ -87,7 +116,7 @@ Background& FullAdaptation::look_up(const Mesh<2>& mesh, const MetricField<2>& t
   if (background_ && background_->is_for(low, high) && background_coarser_ == 2 * coarser()) {
     background_->halve_sizes(target);
   } else if (!background_ || !background_->is_for(low, high) || background_coarser_ != coarser()) {
-    background_ = std::make_unique<Background>(target, low, high, background_options(options_.effort));
+    background_ = std::make_unique<Background>(target, low, high, background_options(options_.effort, std::max<double>(ideal_cells_, mesh.cell_count())));
   }
   background_coarser_ = coarser();
   return *background_;
@@ -96,15 +125,16 @@ Background& FullAdaptation::look_up(const Mesh<2>& mesh, const MetricField<2>& t
 FullAdaptation::Next FullAdaptation::step(Mesh<2>& mesh, const MetricField<2>& field, const MetricField<2>& target,
                                           int iteration) {
   if (!schedule_)
-    schedule_ = std::make_unique<Schedule>(mesh, look_up(mesh, target), options_, diced_, halvings_, recorder_,
-                                           operations_, iteration);
+    schedule_ = std::make_unique<Schedule>(mesh, look_up(mesh, target), options_, diced_, halvings_,
+                                           std::exchange(mended_vertices_, {}), recorder_, operations_, iteration);
   const bool more = schedule_->step();
   activity_ = schedule_->activity();
   if (more) return Next::step;
+  const std::vector<unsigned char> touched = schedule_->touched();
   schedule_.reset();
   // What the layers could not shorten the operators may have, and the other way round.
   const double limit = halvings_ > 0 ? kMuchTooLong * options_.threshold : options_.threshold * (1.0 + kLongestEdgeTolerance);
-  std::vector<std::array<VertexId, 2>> too_long = longer_edges(mesh, target, limit);
+  std::vector<std::array<VertexId, 2>> too_long = longer_edges(mesh, target, limit, touched);
   const bool met = too_long.empty();
   if (!met && mended_++ < kMostMended) return insert_layers(mesh, std::move(too_long));
   if (halvings_ > 0) return halve(mesh, field, iteration);

@@ -35,8 +35,10 @@ double longest_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
   return lengths.empty() ? 0.0 : *std::max_element(lengths.begin(), lengths.end());
 }
 
-std::vector<std::array<VertexId, 2>> longer_edges(const Mesh<2>& mesh, const MetricField<2>& field, double length) {
+std::vector<std::array<VertexId, 2>> longer_edges(const Mesh<2>& mesh, const MetricField<2>& field, double length,
+                                                  std::span<const unsigned char> touched) {
   auto edges = free_edges(mesh);
+  if (!touched.empty()) std::erase_if(edges, [&](const auto& e) { return touched[e[0]] == 0 && touched[e[1]] == 0; });
   const auto keep = [&](auto&& which) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < edges.size(); ++i)

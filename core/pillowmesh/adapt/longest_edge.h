@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "pillowmesh/mesh/mesh.h"
@@ -19,7 +20,9 @@ double longest_edge(const Mesh<Dim>& mesh, const MetricField<Dim>& field);
 
 /// The edges that are longer than `length` and not frozen. Features of the metric narrower than a quarter of an
 /// edge may be missed. Cost: linear in the mesh; for most edges five evaluations of the metric, where `longest_edge` takes seven.
-std::vector<std::array<VertexId, 2>> longer_edges(const Mesh<2>& mesh, const MetricField<2>& field, double length);
+/// \param touched per vertex; edges that join two with 0 are left out. Empty: all are looked at.
+std::vector<std::array<VertexId, 2>> longer_edges(const Mesh<2>& mesh, const MetricField<2>& field, double length,
+                                                  std::span<const unsigned char> touched = {});
 
 /// The mean metric length of the edges. Cost: linear in the mesh.
 template <int Dim>

@@ -22,10 +22,11 @@ constexpr double kMuchEnergy = 0.4, kPoorShape = 0.5;
 
 /// Of a coarse mesh that will be diced, of one that was diced, and of one that layers have made, or that was given. Coarse
 /// meshes are not polished: the finer ones change shapes anyway.
-Budget budget_of(Effort effort, bool diced, int halvings) {
+Budget budget_of(Effort effort, bool diced, int halvings, bool mended) {
   const bool coarse = halvings > 0;
   switch (effort) {
     case Effort::fast:
+      if (mended) return {.cold_passes = 1, .sweeps = 1, .rows_up_to = 0, .least_shape = coarse ? 0.0 : kPoorShape};
       if (coarse && diced) return {3, 0.25, 0.1, kNoRows, 0, 0, 1, 0, 0, kFewCells};
       if (coarse) return {3, 0.3, 0.1, kNoRows, 1, 0, 2, 0, 0, kFewCells};
       if (diced) return {.cold_passes = 1, .sweeps = 1, .rows_up_to = 0, .cold_above = kMuchEnergy, .least_shape = kPoorShape};
@@ -38,7 +39,7 @@ Budget budget_of(Effort effort, bool diced, int halvings) {
     case Effort::best: break;
   }
   if (coarse) return {15, 0.6, 0.05, kNoRows, 20, 0, 5, 40, 100};
-  if (diced) return {500, 0.4, 0.15, kNoRows, 2, 26, 5, 20, 48, kSomeCells, 20, 635};
+  if (diced) return {500, 0.4, 0.15, kNoRows, 2, 26, 5, 20, 48, kSomeCells, 20, 700};
   return {60, 0.6, 0.05, kNoRows, 20, 6, 5, 40, 100};
 }
 
@@ -47,17 +48,20 @@ constexpr int kPassesToBalance = 5, kIterationsToBalance = 12;
 }  // namespace
 
 Schedule::Schedule(Mesh<2>& mesh, Background& background, const AdaptOptions& options, bool diced, int halvings,
-                   Recorder<2>& recorder, std::map<std::string, std::int64_t>& operations, int iteration)
+                   std::span<const VertexId> mended, Recorder<2>& recorder, std::map<std::string, std::int64_t>& operations,
+                   int iteration)
     : mesh_(mesh),
       options_(options),
       recorder_(recorder),
       operations_(operations),
       iteration_(iteration),
-      budget_(budget_of(options.effort, diced, halvings)),
+      partial_(!mended.empty() && options.effort == Effort::fast),
+      budget_(budget_of(options.effort, diced, halvings, partial_)),
       balance_(options, halvings > 0),
       trial_(mesh, background, balance_.first()),
       search_(mesh, trial_, options.seed),
       descent_(mesh, trial_.relocator) {
+  if (partial_) trial_.touch_only(mended);
   if (options.record)
     trial_.kept = [this](Operator op, const Journal& journal) { recorder_.change(op, mesh_, journal, trial_.cavity, iteration_); };
 }
@@ -66,6 +70,12 @@ double Schedule::live_cells() const {
   std::int64_t cells = 0;
   for (CellId c = 0; c < mesh_.cell_count(); ++c) cells += mesh_.alive(c) ? 1 : 0;
   return static_cast<double>(cells);
+}
+
+std::vector<unsigned char> Schedule::touched() const {
+  std::vector<unsigned char> touched(partial_ ? mesh_.points.size() : 0);
+  for (std::size_t v = 0; v < touched.size(); ++v) touched[v] = trial_.touched(static_cast<VertexId>(v)) ? 1 : 0;
+  return touched;
 }
 
 /// How much of the time for hot passes is over.
@@ -133,8 +143,9 @@ void Schedule::next_pass() {
   }
   if (pass_ <= budget_.hot_passes && pass_ % kPassesToBalance == 0) balance_alignment();
   if (pass_ == budget_.hot_passes) {
-    trial_.touch_all();
-    if (budget_.cold_above > 0.0) trial_.longest_allowed = options_.threshold;  // nothing comes after them that would shorten an edge
+    if (budget_.hot_passes > 0) trial_.touch_all();
+    // Nothing comes after them that would shorten an edge.
+    if (budget_.hot_passes == 0 && budget_.least_shape > 0.0) trial_.longest_allowed = options_.threshold;
   }
   search_.begin_pass(temperature(), pass_ < budget_.hot_passes ? 0.0 : budget_.cold_above);
   stage_ = Stage::pass;

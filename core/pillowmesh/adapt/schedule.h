@@ -4,7 +4,9 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "pillowmesh/adapt/balance.h"
 #include "pillowmesh/adapt/local_search.h"
@@ -35,14 +37,17 @@ class Schedule {
  public:
   /// All must outlive it. Cost: linear.
   /// \param diced the mesh was made by dicing an adapted one  \param halvings how often it will be diced afterwards
-  Schedule(Mesh<2>& mesh, Background& background, const AdaptOptions& options, bool diced, int halvings, Recorder<2>& recorder,
-           std::map<std::string, std::int64_t>& operations, int iteration);
+  /// \param mended the vertices that layers have touched since the mesh came out of another schedule; empty: all are to be improved
+  Schedule(Mesh<2>& mesh, Background& background, const AdaptOptions& options, bool diced, int halvings,
+           std::span<const VertexId> mended, Recorder<2>& recorder, std::map<std::string, std::int64_t>& operations, int iteration);
 
   /// A few thousand vertex moves. \return false when all is done.
   bool step();
   /// Share of the work believed done, and what is being done.
   [[nodiscard]] double share() const;
   [[nodiscard]] std::string_view activity() const;
+  /// Per vertex whether it may have moved; empty: each may have.
+  [[nodiscard]] std::vector<unsigned char> touched() const;
 
  private:
   enum class Stage { relax, pass, after_pass, polish, settle, done };
@@ -70,6 +75,7 @@ class Schedule {
   Recorder<2>& recorder_;
   std::map<std::string, std::int64_t>& operations_;
   int iteration_;
+  bool partial_;  ///< for some vertices only
   Budget budget_;
   Balance balance_;
   Trial trial_;

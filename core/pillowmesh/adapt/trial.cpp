@@ -60,6 +60,13 @@ Trial::Trial(Mesh<2>& mesh, Background& background, const QuadRelocator::Weights
 void Trial::touch_all() {
   ++clock_;
   changed_.assign(mesh_.points.size(), clock_);
+  partial_ = false;
+}
+
+void Trial::touch_only(std::span<const VertexId> vertices) {
+  partial_ = true;
+  changed_.assign(mesh_.points.size(), kUntouched);
+  for (const VertexId v : vertices) changed_[v] = clock_;
 }
 
 void Trial::release() {
@@ -251,6 +258,7 @@ void Trial::mend_shapes(double eta) {
   constexpr double kWeight = 30.0;  // as in the polish
   const double before = relocator.weights().shape;
   for (const CellId c : relocator.cells_below(eta)) {
+    if (std::none_of(mesh_.cells[c].begin(), mesh_.cells[c].end(), [&](VertexId v) { return touched(v); })) continue;
     journal_.begin();
     relocator.begin();
     relocator.set_shape(kWeight);
@@ -279,7 +287,7 @@ double Trial::sweep(CellId first, CellId last) {
   for (CellId c = first; c < last; ++c) {
     if (!mesh_.alive(c)) continue;
     for (const VertexId v : mesh_.cells[c])
-      if (std::exchange(swept_[v], sweep_) != sweep_) gain += relocator.relocate(v), ++moves;
+      if (std::exchange(swept_[v], sweep_) != sweep_ && touched(v)) gain += relocator.relocate(v), ++moves;
   }
   relocator.relaxation = relaxation;
   relocator.rest = rest;

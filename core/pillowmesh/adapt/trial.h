@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "pillowmesh/mesh/cavity.h"
@@ -41,11 +42,11 @@ class Trial {
 
   /// The next sweep is over all vertices again.
   void begin_sweep();
-  /// Relocates the vertices of cells first to last - 1, those that this sweep has not come to yet, once.
+  /// Relocates the vertices of cells first to last - 1, those that this sweep has not come to yet and that are touched, once.
   /// \return by how much the energy fell.
   double sweep(CellId first, CellId last);
 
-  /// Relocates the vertices of cells with an eta below this a few times, for their shapes. Cost: linear, without what moves.
+  /// Relocates the vertices of touched cells with an eta below this a few times, for their shapes. Cost: linear, without what moves.
   void mend_shapes(double eta);
 
   /// Cells that a vertex should have: 4 inside, 2 on a curve, at a corner as many as fill it with right angles.
@@ -54,6 +55,10 @@ class Trial {
   [[nodiscard]] Index changed(VertexId v) const { return changed_[v]; }
   Index tick() { return ++clock_; }
   void touch_all();
+  /// From here on sweeps and `mend_shapes` are for these vertices alone, and for what changes.
+  void touch_only(std::span<const VertexId> vertices);
+  /// Whether they are for v, too.
+  [[nodiscard]] bool touched(VertexId v) const { return !partial_ || changed_[v] != kUntouched; }
   /// No change comes any more, sweeps alone: gives back what only changes need.
   void release();
 
@@ -97,7 +102,9 @@ class Trial {
   std::vector<Index> swept_;
   Index sweep_ = 0;
   std::vector<std::int8_t> ideal_;
+  static constexpr Index kUntouched = -1;
   std::vector<Index> changed_;
+  bool partial_ = false;  ///< some are kUntouched
   Index clock_ = 1;
   OrderedStar star_;
 };

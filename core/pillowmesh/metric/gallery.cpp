@@ -9,35 +9,27 @@ namespace {
 #define PILLOWMESH_SIZE_ALONG_X \
   "if(x <= 2, 1 - 19*x/40, if(x <= 3.5, 20^((2*x - 7)/3), if(x <= 5, 5^((7 - 2*x)/3), 1/5 + (x - 5)^4/20)))"
 
-// The Hessian H of tanh(20 (x - sin(3 y) / 2)) at (x + A, y + B): adds W log(|H| / 0.02), its eigenvalues limited to
-// sizes from 0.003 to 0.15, to log M = a I + (b c; c -b), under the names a N, b N, c N after P.
-#define PILLOWMESH_SHOCK_AT(N, P, A, B, W)                                                     \
-  "s" N " = tanh(20*(x + " A " - 0.5*sin(3*(y + " B                                            \
-  "))));\n"                                                                                    \
-  "d" N " = 1 - s" N "^2;\ne" N " = -2*s" N "*d" N ";\nv" N " = -30*cos(3*(y + " B             \
-  "));\n"                                                                                      \
-  "q" N " = 200*e" N ";\nr" N " = 0.5*(v" N "^2*e" N " + 90*d" N "*sin(3*(y + " B              \
-  ")));\n"                                                                                     \
-  "t" N " = 20*v" N "*e" N ";\ng" N " = sqrt((q" N " - r" N ")^2 + t" N                        \
-  "^2) + 1e-30;\n"                                                                             \
-  "k" N " = log(min(max(50*abs(q" N " + r" N " + g" N                                          \
-  "), 1/0.15^2), 1/0.003^2));\n"                                                               \
-  "l" N " = log(min(max(50*abs(q" N " + r" N " - g" N                                          \
-  "), 1/0.15^2), 1/0.003^2));\n"                                                               \
-  "a" N " = " P("a") " + " W "*0.5*(k" N " + l" N                                              \
-                     ");\n"                                                                    \
-                     "b" N " = " P("b") " + " W "*0.5*(k" N " - l" N ")*(q" N " - r" N ")/g" N \
-                                        ";\n"                                                  \
-                                        "c" N " = " P("c") " + " W "*0.5*(k" N " - l" N ")*t" N "/g" N ";\n"
-#define PILLOWMESH_NONE(X) "0"
-#define PILLOWMESH_AFTER_1(X) X "1"
-#define PILLOWMESH_AFTER_2(X) X "2"
-#define PILLOWMESH_AFTER_3(X) X "3"
-#define PILLOWMESH_AFTER_4(X) X "4"
-#define PILLOWMESH_AFTER_5(X) X "5"
-#define PILLOWMESH_AFTER_6(X) X "6"
-#define PILLOWMESH_AFTER_7(X) X "7"
-#define PILLOWMESH_AFTER_8(X) X "8"
+// The Hessian H of tanh(20 z), z = x - sin(3 y) / 2, at nine points (x + A, y + B) with A and B of 0 and 0.01: |H| / 0.02, its
+// eigenvalues limited to sizes from 0.003 to 0.15, and of the logarithms the mean with weights of 4, 2 and 1, which is
+// a I + (b c; c -b).
+//
+// With w = 1 / (1 + exp(40 z)), d = w (1 - w) and e = (2 w - 1) d: H / 0.02 = 80000 e (1 v; v v^2) + 18000 d sin(3 y) (0 0; 0 1),
+// v = -1.5 cos(3 y). Nine tanh would take longer than exp(40 x) and three exp(-20 sin(3 y)).
+
+/// Of a row of three points: of its sine and cosine what takes e and d to the entries of H.
+#define PILLOWMESH_SHOCK_ROW(R, SINE, COSINE)                                                    \
+  "p" R " = " SINE ";\no" R " = " COSINE ";\nz" R " = exp(-20*p" R ");\nq" R " = 180000*o" R      \
+  "^2;\ns" R " = 80000 + q" R ";\nf" R " = 80000 - q" R ";\nv" R " = 9000*p" R ";\nt" R " = -240000*o" R ";\n"
+
+/// Of point N of row R, where exp(40 x) is U: the eigenvalues k and l as they are limited, and the difference of their logarithms times
+/// the direction (b, c).
+#define PILLOWMESH_SHOCK_AT(N, R, U)                                                                                             \
+  "w" N " = 1/(1 + " U "*z" R ");\nd" N " = w" N "*(1 - w" N ");\ne" N " = (2*w" N " - 1)*d" N ";\ni" N " = v" R "*d" N             \
+  ";\ns" N " = s" R "*e" N " + i" N ";\nb" N " = f" R "*e" N " - i" N ";\nc" N " = t" R "*e" N ";\ng" N " = sqrt(b" N "^2 + c" N  \
+  "^2) + 1e-30;\nk" N " = min(max(abs(s" N " + g" N "), 1/0.15^2), 1/0.003^2);\nl" N " = min(max(abs(s" N " - g" N               \
+  "), 1/0.15^2), 1/0.003^2);\nn" N " = log(k" N "/l" N ")/g" N ";\n"
+#define PILLOWMESH_SHOCK_MEAN(X)                                                                                          \
+  X " = 0.03125*(4*n1*" X "1 + 2*(n2*" X "2 + n3*" X "3 + n4*" X "4 + n5*" X "5) + n6*" X "6 + n7*" X "7 + n8*" X "8 + n9*" X "9);\n"
 
 // In Eqs. (8) and (12) the paper prints |1-r|; its circle and sphere have radius 0.5, and its tables come from |0.5-r|.
 constexpr Case kCases[] = {
@@ -59,18 +51,17 @@ constexpr Case kCases[] = {
      "h1 = 0.0005 + 1.5*abs(1 - d);\nh2 = 0.1*d + 1.5*abs(1 - d)",
      "UGAWG, circle-1"},
     {"shock2d", 2, "The Hessian of a sine-shaped shock, smoothed so that it can be met", "grid:10,10:-1,1,-1,1",
-     PILLOWMESH_SHOCK_AT("1", PILLOWMESH_NONE, "0", "0", "0.25")
-         PILLOWMESH_SHOCK_AT("2", PILLOWMESH_AFTER_1, "0.01", "0", "0.125")
-             PILLOWMESH_SHOCK_AT("3", PILLOWMESH_AFTER_2, "-0.01", "0", "0.125")
-                 PILLOWMESH_SHOCK_AT("4", PILLOWMESH_AFTER_3, "0", "0.01", "0.125")
-                     PILLOWMESH_SHOCK_AT("5", PILLOWMESH_AFTER_4, "0", "-0.01", "0.125")
-                         PILLOWMESH_SHOCK_AT("6", PILLOWMESH_AFTER_5, "0.01", "0.01", "0.0625") PILLOWMESH_SHOCK_AT(
-                             "7", PILLOWMESH_AFTER_6, "-0.01", "0.01", "0.0625")
-                             PILLOWMESH_SHOCK_AT("8", PILLOWMESH_AFTER_7, "0.01", "-0.01", "0.0625")
-                                 PILLOWMESH_SHOCK_AT("9", PILLOWMESH_AFTER_8, "-0.01", "-0.01",
-                                                     "0.0625") "g = sqrt(b9^2 + c9^2) + 1e-30;\nm = 0.5*(exp(a9 + g) + "
-                                                               "exp(a9 - g));\nn = 0.5*(exp(a9 + g) - exp(a9 - g))/g;\n"
-                                                               "m11 = m + n*b9;\nm12 = n*c9;\nm22 = m - n*b9",
+     PILLOWMESH_SHOCK_ROW("0", "sin(3*y)", "cos(3*y)")
+     PILLOWMESH_SHOCK_ROW("h", "p0*cos(0.03) + o0*sin(0.03)", "o0*cos(0.03) - p0*sin(0.03)")
+     PILLOWMESH_SHOCK_ROW("l", "p0*cos(0.03) - o0*sin(0.03)", "o0*cos(0.03) + p0*sin(0.03)")
+     "u = exp(40*x);\nur = u*exp(0.4);\nul = u*exp(-0.4);\n"
+     PILLOWMESH_SHOCK_AT("1", "0", "u") PILLOWMESH_SHOCK_AT("2", "0", "ur") PILLOWMESH_SHOCK_AT("3", "0", "ul")
+     PILLOWMESH_SHOCK_AT("4", "h", "u") PILLOWMESH_SHOCK_AT("5", "l", "u") PILLOWMESH_SHOCK_AT("6", "h", "ur")
+     PILLOWMESH_SHOCK_AT("7", "h", "ul") PILLOWMESH_SHOCK_AT("8", "l", "ur") PILLOWMESH_SHOCK_AT("9", "l", "ul")
+     PILLOWMESH_SHOCK_MEAN("b") PILLOWMESH_SHOCK_MEAN("c")
+     "a = 0.03125*log((k1*l1)^4*(k2*l2*k3*l3*k4*l4*k5*l5)^2*(k6*l6*k7*l7*k8*l8*k9*l9));\n"
+     "g = sqrt(b^2 + c^2) + 1e-30;\nj = exp(a + g);\nk = exp(a - g);\nm = 0.5*(j + k);\nn = 0.5*(j - k)/g;\n"
+     "m11 = m + n*b;\nm12 = n*c;\nm22 = m - n*b",
      "own; the metric of a shock that error estimates give"},
     {"linear3d", 3, "Cubes that grow upwards", "grid:4,4,4:0,1,0,1,0,1", "h = 0.05 + 0.15*z",
      "[Paper] Table 4, Figure 9"},
@@ -99,16 +90,9 @@ constexpr Case kCases[] = {
      "UGAWG, cube-cylinder, polar-2"},
 };
 
+#undef PILLOWMESH_SHOCK_ROW
 #undef PILLOWMESH_SHOCK_AT
-#undef PILLOWMESH_NONE
-#undef PILLOWMESH_AFTER_1
-#undef PILLOWMESH_AFTER_2
-#undef PILLOWMESH_AFTER_3
-#undef PILLOWMESH_AFTER_4
-#undef PILLOWMESH_AFTER_5
-#undef PILLOWMESH_AFTER_6
-#undef PILLOWMESH_AFTER_7
-#undef PILLOWMESH_AFTER_8
+#undef PILLOWMESH_SHOCK_MEAN
 #undef PILLOWMESH_SIZE_ALONG_X
 #undef PILLOWMESH_SIZE_ALONG_Y
 

@@ -48,11 +48,28 @@ PILLOWMESH_LANES void map_pair(double* __restrict out, const double* a, const do
 }
 
 #if defined(__wasm__)
+void map_exponential(double* out, const double* a, int n) {
+  map(out, a, n, portable::exp);
+}
 template <class F, class Exact>
 void map_turns(double* out, const double* a, int n, F, Exact exact) {
   map(out, a, n, exact);  // two numbers at a time are not worth the size of the loops
 }
 #else
+PILLOWMESH_LANES void map_exponential(double* __restrict out, const double* a, int n) {
+  for (int i = 0; i < n; i += kGroup) {
+    std::array<double, kGroup> x;
+    double doubts = 0.0;
+    for (int k = 0; k < kGroup; ++k) {
+      x[k] = a[i + k];
+      out[i + k] = branchless::exp_of_ordinary(x[k]);
+      doubts += branchless::not_ordinary(x[k]) ? 1.0 : 0.0;
+    }
+    if (doubts == 0.0) continue;
+    for (int k = 0; k < kGroup; ++k)
+      if (branchless::not_ordinary(x[k])) out[i + k] = portable::exp(x[k]);
+  }
+}
 /// f of quarter turns; where those are doubtful `exact`, of the number.
 template <class F, class Exact>
 PILLOWMESH_LANES void map_turns(double* out, const double* a, int n, F f, Exact exact) {
@@ -155,7 +172,7 @@ PILLOWMESH_LANES void Program::run_code(const Lanes* coordinates, int count, std
         map(out, a, n, [](double u) { return std::sqrt(u); });
         break;
       case Op::exponential:
-        map(out, a, n, portable::exp);
+        map_exponential(out, a, n);
         break;
       case Op::logarithm:
         map(out, a, n, branchless::log);

@@ -57,11 +57,14 @@ class SimplexEdges {
     keys_.clear();
     lines_.clear();
     for (std::size_t i = 0; i < cells.size(); ++i) {
+      const std::size_t first = lines_.size();
+      double longest = 0.0;  // edge of the cell
       for (int j = 0; j < kPerCell; ++j) {
         const VertexId a = mesh.cells[cells[i]][kPairs.pair[j][0]], b = mesh.cells[cells[i]][kPairs.pair[j][1]];
         Index& place = place_[i * kPerCell + j];
         if (kPairs.is_edge(j)) {
           place = known_.edges.find(a, b);
+          longest = std::max(longest, known_.along[place].length);
         } else if constexpr (Dim == 2) {
           place = static_cast<Index>(lines_.size());
           lines_.push_back(line_between(mesh, known_.at_vertices, a, b));
@@ -69,6 +72,7 @@ class SimplexEdges {
           keys_.push_back({key(a, b), i * kPerCell + j});
         }
       }
+      for (std::size_t d = first; d < lines_.size(); ++d) lines_[d].smooth = longest < kShortEdge;
     }
     if constexpr (Dim == 3) {
       // Neighbouring cells and corners share diagonals: each is integrated once.
@@ -83,7 +87,7 @@ class SimplexEdges {
     diagonals_.resize(lines_.size());
     // Features as narrow as a panel are found by the edges.
     LineOptions coarser = options;
-    coarser.panel *= 4.0;
+    coarser.panel *= Dim == 2 ? 2.0 : 4.0;
     line_integrals<Dim>(field, lines_, diagonals_, coarser);
   }
 
@@ -144,7 +148,7 @@ class SimplexVolumes;
 template <>
 class SimplexVolumes<2> {
  public:
-  SimplexVolumes(const MetricField<2>& field, double panel) : field_(field), options_(VolumeOptions::for_panel(2, 2.0 * panel, 3e-3)) {}
+  SimplexVolumes(const MetricField<2>& field, double panel) : field_(field), options_(VolumeOptions::for_panel(2, panel, 3e-3)) {}
 
   void measure(const Mesh<2>& mesh, std::span<const CellId> cells, const SimplexEdges<2>& edges) {
     quads_.resize(cells.size());
