@@ -1,5 +1,6 @@
 #include "pillowmesh/metric/gallery.h"
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <set>
 #include <string>
@@ -62,6 +63,37 @@ TEST_CASE("the circle's metric is finest on the circle and thin along the radius
   CHECK(dot(M, outward, outward) == Approx(120.0 * 120.0));
   const Point<2> across(-0.4, 0.3);
   CHECK(dot(M, across, across) == Approx(30.0 * 30.0));
+}
+
+TEST_CASE("the shock's metric is the mean of the limited Hessians of its function at nine points, by their logarithms") {
+  const auto field = *MetricField<2>::from_formula(find_case("shock2d")->formula);
+  const auto mean_of_nine = [](double x, double y) {
+    Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j) {
+        const double X = x + 0.01 * i, Y = y + 0.01 * j, t = std::tanh(20 * (X - 0.5 * std::sin(3 * Y)));
+        const double first = 20 * (1 - t * t), second = -800 * t * (1 - t * t), slope = -1.5 * std::cos(3 * Y);
+        Eigen::Matrix2d H;
+        H << second, second * slope, second * slope, second * slope * slope + first * 4.5 * std::sin(3 * Y);
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> s(H / 0.02);
+        const Eigen::Vector2d limited = s.eigenvalues().cwiseAbs().cwiseMax(1 / 0.0225).cwiseMin(1 / 9e-6);
+        const double weight = (2.0 - std::abs(i)) * (2.0 - std::abs(j)) / 16;
+        sum += weight * (s.eigenvectors() * limited.array().log().matrix().asDiagonal() * s.eigenvectors().transpose());
+      }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> s(sum);
+    return Eigen::Matrix2d(s.eigenvectors() * s.eigenvalues().array().exp().matrix().asDiagonal() * s.eigenvectors().transpose());
+  };
+  for (int i = -20; i <= 20; ++i)
+    for (int j = -20; j <= 20; ++j) {
+      const double y = 0.05 * j + 0.003, x = 0.5 * std::sin(3 * y) + 0.013 * i + 0.001;
+      CAPTURE(x, y);
+      const Eigen::Matrix2d M = mean_of_nine(x, y);
+      const SymTensor<2> found = field.evaluate(Point<2>(x, y));
+      CHECK(found.m[0] == Approx(M(0, 0)).epsilon(1e-9));
+      CHECK(found.m[1] == Approx(M(0, 1)).margin(1e-9 * M.trace()));
+      CHECK(found.m[2] == Approx(M(1, 1)).epsilon(1e-9));
+    }
+  for (const double x : {-1e3, 1e3}) CHECK(field.evaluate(Point<2>(x, 0.3)).m[0] == Approx(1 / 0.0225));
 }
 
 TEST_CASE("sphere3d is thin along the radius, sphere3d-paper is not") {

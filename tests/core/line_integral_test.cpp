@@ -132,6 +132,18 @@ TEST_CASE("halving closes in on kinks, and stops at jumps") {
   CHECK(along<2>("h = if(x < 0.3, 1, 0.1)", a, b, {.max_depth = 2}).length != Approx(0.3 + 7.0).epsilon(1e-3));
 }
 
+TEST_CASE("a smooth line has one panel, however long it is") {
+  const char* const spike = "h1 = if(abs(x - 0.3) < 0.04, 0.01, 1); h2 = 1";
+  const auto length = [&](bool smooth) {
+    const std::vector<Line<2>> line{{.from = Point<2>(0, 0), .to = Point<2>(1, 0), .smooth = smooth}};
+    LineIntegral integral;
+    line_integrals<2>(*MetricField<2>::from_formula(spike), line, {&integral, 1}, {.panel = 0.1});
+    return integral.length;
+  };
+  CHECK(length(false) == Approx(1.0 + 0.08 * 99).epsilon(2e-2));
+  CHECK(length(true) == Approx(1.0));
+}
+
 TEST_CASE("line integrals see a spike that a panel is too short to hide") {
   const char* const spike = "h1 = if(abs(x - 0.635) < 0.002, 0.001, 1); h2 = 1";
   const Point<2> a(0.45, 0), b(0.65, 0);

@@ -37,6 +37,20 @@ TEST_CASE("there are longer edges where the longest edge says so") {
   }
 }
 
+TEST_CASE("longer edges between vertices that have not been touched are left out, and no others") {
+  const auto field = *MetricField<2>::from_formula("h = 0.1");
+  const Mesh<2> mesh = std::get<Mesh<2>>(*parse_primitive("grid:4,4:0,1,0,1"));
+  std::vector<unsigned char> touched(mesh.points.size(), 0);
+  CHECK(longer_edges(mesh, field, 2.0, touched).empty());
+  touched[6] = 1;  // a vertex inside
+  std::vector<std::array<VertexId, 2>> expected = unique_edges(mesh);
+  std::erase_if(expected, [](const auto& e) { return e[0] != 6 && e[1] != 6; });
+  CHECK(expected.size() == 4);
+  CHECK(longer_edges(mesh, field, 2.0, touched) == expected);
+  touched.assign(mesh.points.size(), 1);
+  CHECK(longer_edges(mesh, field, 2.0, touched) == longer_edges(mesh, field, 2.0));
+}
+
 TEST_CASE("frozen edges do not count as longer, and a mesh without edges has none") {
   const auto field = *MetricField<2>::from_formula("h = if(x < 0.1, 0.1, 1)");
   const auto grid = [](const std::vector<std::string>& frozen) {

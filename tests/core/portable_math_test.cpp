@@ -105,6 +105,43 @@ TEST_CASE("sine and cosine without branches have the bits of those with them, or
   CHECK(doubtful == 2);
 }
 
+TEST_CASE("the exponential without branches has the bits of the one with them, or says that it may not") {
+  const std::uint64_t seed = 20'261'129;
+  CAPTURE(seed);
+  Random random(seed);
+  const auto bits = [](double y) { return std::bit_cast<std::uint64_t>(y); };
+  int same = 0, refused = 0;
+  const auto compare = [&](double x) {
+    if (branchless::not_ordinary(x))
+      ++refused;
+    else
+      same += bits(branchless::exp_of_ordinary(x)) == bits(portable::exp(x));
+  };
+  constexpr int n = 200'000;
+  for (int i = 0; i < n; ++i) compare(1023.0 * (random.uniform() - 0.5));
+  CHECK(same == n);
+  same = 0;
+  for (int i = 0; i < n; ++i) compare(portable::pow(2.0, 80.0 * random.uniform() - 70.0) * (random.uniform() < 0.5 ? 1 : -1));
+  CHECK(refused > n / 10);
+  CHECK(same + refused == n);
+  for (const double x : {0x1p-54, -0x1p-54, 0x1.fffffffffffffp8, -0x1.fffffffffffffp8}) CHECK_FALSE(branchless::not_ordinary(x));
+  for (const double x : {0.0, 0x1.fffffffffffffp-55, 512.0, -512.0, 1e300, std::numeric_limits<double>::infinity(), std::nan("")})
+    CHECK(branchless::not_ordinary(x));
+}
+
+TEST_CASE("formulas have exponentials one by one where they overflow among others") {
+  const MetricField<2> field = *MetricField<2>::from_formula("m11 = 1 + exp(x);\nm12 = 0;\nm22 = 1 + exp(y)");
+  std::vector<Point<2>> points;
+  for (int i = 0; i < 64; ++i) points.emplace_back(i == 5 ? 600.0 : 0.3 * i, i == 37 ? 1e9 : (i == 50 ? 0.0 : -12.0 * i));
+  std::vector<SymTensor<2>> M(points.size());
+  field.evaluate(points, M);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    CAPTURE(i);
+    CHECK(M[i].m[0] == 1 + portable::exp(points[i][0]));
+    CHECK(M[i].m[2] == 1 + portable::exp(points[i][1]));
+  }
+}
+
 TEST_CASE("formulas have sines and cosines one by one where they are doubtful among others") {
   const MetricField<2> field = *MetricField<2>::from_formula("m11 = 3 + sin(x);\nm12 = 0;\nm22 = 3 + cos(y)");
   std::vector<Point<2>> points;

@@ -87,6 +87,37 @@ TEST_CASE("shapes are left as they are where an edge would become too long") {
   }
 }
 
+TEST_CASE("sweeps and mending leave alone what is not touched, and cells that changes touch are swept") {
+  for (const auto& [name, given] : corpus::meshes<2>()) {
+    INFO(name);
+    Mesh<2> mesh = given;
+    crumple(mesh, 2);
+    const Mesh<2> crumpled = mesh;
+    Background sizes = background(mesh);
+    Trial trial(mesh, sizes, {});
+    std::vector<VertexId> some;
+    for (VertexId v = 0; v < mesh.vertex_count(); v += 3) some.push_back(v);
+    trial.touch_only(some);
+    trial.begin_sweep();
+    trial.sweep(0, mesh.cell_count());
+    int moved = 0;
+    for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+      CHECK(trial.touched(v) == (v % 3 == 0));
+      if (v % 3 != 0) CHECK(mesh.points[v] == crumpled.points[v]);
+      moved += mesh.points[v] != crumpled.points[v];
+    }
+    CHECK((moved > 0 || mesh.vertex_count() < 30));
+    trial.touch_only({});
+    const Mesh<2> swept = mesh;
+    trial.mend_shapes(0.9);
+    trial.begin_sweep();
+    CHECK(trial.sweep(0, mesh.cell_count()) == 0.0);
+    CHECK(corpus::identical(mesh, swept));
+    trial.touch_all();
+    CHECK(trial.touched(1));
+  }
+}
+
 TEST_CASE("no change is kept that leaves a longer edge than is allowed") {
   Mesh<2> mesh = make_grid<2>({12, 12}, Point<2>(0, 0), Point<2>(1, 1));
   const Mesh<2> given = mesh;
