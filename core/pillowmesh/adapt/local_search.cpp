@@ -19,7 +19,6 @@ constexpr int kMostExcess = 2;        ///< changes that make more irregularity t
 constexpr int kMostExcessOpened = 4;  ///< an opening among regular vertices makes two dislocations: else none would come there
 constexpr int kRefusedAtLarge = 3;    ///< rows that the whole mesh was relocated for in vain
 constexpr double kNoise = 0.001;      ///< a gain smaller than this is none
-constexpr double kChordGain = 0.02;   ///< expected of a chord to be tried, for each of its cells
 constexpr double kPoorCell = 0.1;     ///< energy above which a cell is looked at
 /// What a cell is worth beyond its energy. An opening is relaxed from a sliver and judged too early more often than a
 /// collapse; without this the search loses cells. Opening and collapsing again cannot go on for ever: what one may cost
@@ -311,7 +310,7 @@ bool LocalSearch::attempt_chord(Operator op) {
   return false;
 }
 
-std::int64_t LocalSearch::chord_pass() {
+std::int64_t LocalSearch::chord_pass(double least_gain) {
   std::int64_t kept = 0;
   std::vector<std::uint8_t> seen(mesh_.cells.size(), 0);  // bit per axis
   for (CellId c = 0; c < mesh_.cell_count(); ++c)
@@ -323,8 +322,8 @@ std::int64_t LocalSearch::chord_pass() {
       find_chord(mesh_, c, axis, marks_, chord_);
       for (const auto& [cell, side] : chord_.cells) seen[cell] |= static_cast<std::uint8_t>(1 << (side & 1));
       const double gain = chord_gain() / static_cast<double>(chord_.cells.size());
-      if (gain > kChordGain && attempt_chord(Operator::chord_collapse)) ++kept;
-      if (gain < -kChordGain && attempt_chord(Operator::chord_split)) ++kept;
+      if (gain > least_gain && attempt_chord(Operator::chord_collapse)) ++kept;
+      if (gain < -least_gain && attempt_chord(Operator::chord_split)) ++kept;
     }
   return kept;
 }

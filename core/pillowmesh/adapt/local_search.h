@@ -29,8 +29,8 @@ class LocalSearch {
   void release();
 
   /// Tries to collapse chords where there is a row too many, and to split those where there is one too few. Chords once
-  /// each. \return the changes kept. Cost: all chords are walked.
-  std::int64_t chord_pass();
+  /// each, where for each of their cells so much energy may be gained. \return the changes kept. Cost: all chords are walked.
+  std::int64_t chord_pass(double least_gain);
 
  private:
   bool interesting(CellId c);

@@ -23,6 +23,7 @@ struct Budget {
   int rows_every = 1;  ///< so many hot passes whole rows are removed and doubled
   int cold_passes = 0, polish_rounds = 0;
   int sweeps = 0, relax_sweeps = 0, settle_sweeps = 0;  ///< of single vertices at the beginning; of all at once, then and at the end
+  double row_gain = 0.02;      ///< energy that a row is expected to gain, for each of its cells, to be tried
   CellId rows_up_to = std::numeric_limits<CellId>::max();  ///< cells that the mesh may have for that
   int warm_rounds = 0;  ///< of the polish: from `cool` to a third of it
   /// For each cell the hot passes may move so many vertices: where sizes turn and kink, passes are longer, and fewer.
