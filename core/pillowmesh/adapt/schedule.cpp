@@ -65,6 +65,7 @@ Schedule::Schedule(Mesh<2>& mesh, Background& background, const AdaptOptions& op
       trial_(mesh, background, balance_.first()),
       search_(mesh, trial_, options.seed),
       descent_(mesh, trial_.relocator) {
+  if (options.effort == Effort::fast) trial_.least_sweeps = 1;
   if (partial_) trial_.touch_only(mended);
   if (options.record)
     trial_.kept = [this](Operator op, const Journal& journal) { recorder_.change(op, mesh_, journal, trial_.cavity, iteration_); };

@@ -207,7 +207,7 @@ bool Trial::attempt(Operator op, double threshold) {
   for (int k = 0; k < patient.near_sweeps; ++k) {
     const double gain = relax(near_);
     if (hopeless(gain, patient.near_hope)) return refuse(count.hopeless);
-    if (gain < 1e-3 || (change < threshold && k >= 1)) break;
+    if (gain < 1e-3 || (change < threshold && k + 1 >= least_sweeps)) break;
   }
   collect_far(patient.rings);
   for (int k = 0; k < patient.far_sweeps && change > threshold; ++k) {

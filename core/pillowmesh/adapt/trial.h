@@ -65,6 +65,10 @@ class Trial {
   /// No cell that `attempt` or `mend_shapes` changes may have a longer edge afterwards, whatever it had before.
   double longest_allowed = std::numeric_limits<double>::infinity();
 
+  /// A change is relaxed so often before it may be kept, unless there is nothing left to gain. Once: sooner, and the sweeps that come later have
+  /// more to do.
+  int least_sweeps = 2;
+
   Cavity cavity;
   QuadRelocator relocator;
   /// Told of every change that was kept, while the journal still knows the mesh before it.
