@@ -32,7 +32,7 @@ Budget budget_of(Effort effort, bool diced, int halvings, bool mended) {
     case Effort::fast:
       if (mended) return {.cold_passes = 1, .sweeps = 1, .rows_up_to = 0, .least_shape = coarse ? 0.0 : kPoorShape};
       if (coarse && diced) return {3, 0.25, 0.1, kNoRows, 0, 0, 1, 0, 0, kMuchGain, kFewCells};
-      if (coarse) return {3, 0.3, 0.1, kNoRows, 1, 0, 2, 0, 0, kMuchGain, kFewCells};
+      if (coarse) return {3, 0.2, 0.1, kNoRows, 1, 0, 2, 0, 0, kMuchGain, kFewCells};
       if (diced) return {.cold_passes = 1, .sweeps = 1, .rows_up_to = 0, .cold_above = kMuchEnergy, .least_shape = kPoorShape};
       return {.hot_passes = 6, .hot = 0.3, .cool = 0.1, .rows_every = 3, .cold_passes = 2, .sweeps = 5, .relax_sweeps = 4,
               .settle_sweeps = 2, .rows_up_to = kFewCells, .least_shape = kPoorShape};
