@@ -9,6 +9,7 @@
 #include "pillowmesh/adapt/local_search.h"
 #include "pillowmesh/mesh/topology.h"
 #include "pillowmesh/mesh/validate.h"
+#include "pillowmesh/reconnect/rotate.h"
 
 namespace trial_test {
 
@@ -164,6 +165,46 @@ TEST_CASE("a pass over the cells with much energy tries nothing where there are 
   };
   CHECK(tried(1.001) == 0);
   CHECK(tried(0.9) > 0);
+}
+
+TEST_CASE("in hot passes crowded cells are only collapsed, in cold ones everything is tried") {
+  struct Tries {
+    std::int64_t all, collapses;
+  };
+  const auto tries = [](double crowded, double temperature) -> Tries {
+    Mesh<2> mesh = make_grid<2>({24, 24}, Point<2>(0, 0), Point<2>(1, 1));  // areas of .02 to .04
+    Background sizes = background(mesh);
+    Trial trial(mesh, sizes, {});
+    LocalSearch search(mesh, trial, 1);
+    search.crowded = crowded;
+    search.begin_pass(temperature);
+    search.continue_pass(200);
+    Tries t{0, 0};
+    for (const Trial::Count& c : trial.counts) t.all += c.tried;
+    for (const Operator op : {Operator::collapse, Operator::boundary_collapse, Operator::partial_chord_collapse})
+      t.collapses += trial.counts[static_cast<int>(op)].tried;
+    return t;
+  };
+  const Tries some = tries(0.5, 0.2), all = tries(0.0, 0.2), cold = tries(0.5, 0.0);
+  CHECK(some.all > 5);
+  CHECK(some.collapses == some.all);
+  CHECK(all.collapses < all.all);
+  CHECK(cold.all == tries(0.0, 0.0).all);
+}
+
+TEST_CASE("a change that pays after one sweep is kept then, or relaxed once more") {
+  const auto moves = [](int least_sweeps) {
+    Mesh<2> mesh = make_grid<2>({12, 12}, Point<2>(0, 0), Point<2>(1, 1));
+    Background sizes = background(mesh);
+    Trial trial(mesh, sizes, {});
+    trial.least_sweeps = least_sweeps;
+    REQUIRE(plan_rotation(mesh, 60, 1, 0, trial.cavity));
+    CHECK(trial.attempt(Operator::rotate, 100.0));  // whatever it costs
+    CHECK(validate(mesh).ok());
+    return trial.moves;
+  };
+  CHECK(moves(1) < moves(2));
+  CHECK(moves(2) < moves(3));
 }
 
 }  // namespace trial_test

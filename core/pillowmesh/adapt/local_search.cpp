@@ -66,6 +66,11 @@ bool LocalSearch::interesting(CellId c) {
   return false;
 }
 
+bool LocalSearch::is_crowded(CellId c) const {
+  const auto length = [&](int side) { return 0.5 * (trial_.relocator.edge(c, side).l + trial_.relocator.edge(c, side + 2).l); };
+  return temperature_ > 0.0 && length(0) * length(1) < crowded;
+}
+
 /// By how much a change may raise the energy, at the temperature of the pass, when `bonus` more is allowed.
 double LocalSearch::allowance(double bonus) {
   return (temperature_ > 0 ? temperature_ * random_.exponential() : 0.0) - kNoise + bonus;
@@ -100,20 +105,31 @@ bool LocalSearch::continue_pass(std::int64_t moves) {
     }
     if (!interesting(c)) continue;
     const Index now = trial_.tick();
-    try_rotations(c);
-    try_collapses(c);
-    try_openings(c);
-    try_boundary_collapses(c);
-    try_boundary_openings(c);
-    if (random_.uniform() < kShareOfParts)
-      for (int side = 0; side < 4; ++side) {
-        if (mesh_.alive(c)) try_partial_collapses(c, side);
-        if (mesh_.alive(c)) try_partial_splits(c, side);
-      }
+    try_all(c);
     looked_.resize(mesh_.cells.size(), 0);
     looked_[c] = now;
   }
   return false;
+}
+
+void LocalSearch::try_all(CellId c) {
+  if (is_crowded(c)) {
+    for (int side = 0; side < 4; ++side)
+      if (mesh_.alive(c)) try_partial_collapses(c, side);
+    try_collapses(c);
+    try_boundary_collapses(c);
+    return;
+  }
+  try_rotations(c);
+  try_collapses(c);
+  try_openings(c);
+  try_boundary_collapses(c);
+  try_boundary_openings(c);
+  if (random_.uniform() < kShareOfParts)
+    for (int side = 0; side < 4; ++side) {
+      if (mesh_.alive(c)) try_partial_collapses(c, side);
+      if (mesh_.alive(c)) try_partial_splits(c, side);
+    }
 }
 
 void LocalSearch::try_rotations(CellId c) {

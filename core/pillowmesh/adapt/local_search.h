@@ -32,8 +32,14 @@ class LocalSearch {
   /// each, where for each of their cells so much energy may be gained. \return the changes kept. Cost: all chords are walked.
   std::int64_t chord_pass(double least_gain);
 
+  /// In hot passes cells with a smaller area than this, the product of their mean metric lengths, are only collapsed: where layers have made
+  /// several times the cells that there are to be, the rest can wait.
+  double crowded = 0.0;
+
  private:
   bool interesting(CellId c);
+  [[nodiscard]] bool is_crowded(CellId c) const;
+  void try_all(CellId c);
   double allowance(double bonus);
   [[nodiscard]] bool hopeless(double odds) const;
   bool attempt(Operator op, double allowed);
