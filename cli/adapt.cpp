@@ -109,7 +109,7 @@ int adapt_mesh(Mesh<Dim> mesh, const AdaptFlags& flags, double read_seconds) {
   const bool print = !flags.quiet && flags.report != "-";
   Clock clock;
   Report initial;
-  if (print) initial = measure(mesh, *field, false);
+  if (print) initial = measure_lengths_and_shapes(mesh, *field);
   double measure_seconds = clock.lap();
 
   ProgressLine progress(flags.quiet);

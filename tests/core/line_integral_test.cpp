@@ -132,10 +132,10 @@ TEST_CASE("halving closes in on kinks, and stops at jumps") {
   CHECK(along<2>("h = if(x < 0.3, 1, 0.1)", a, b, {.max_depth = 2}).length != Approx(0.3 + 7.0).epsilon(1e-3));
 }
 
-TEST_CASE("a smooth line has one panel, however long it is") {
+TEST_CASE("a line that asks for one panel has one, however long it is") {
   const char* const spike = "h1 = if(abs(x - 0.3) < 0.04, 0.01, 1); h2 = 1";
-  const auto length = [&](bool smooth) {
-    const std::vector<Line<2>> line{{.from = Point<2>(0, 0), .to = Point<2>(1, 0), .smooth = smooth}};
+  const auto length = [&](bool single_panel) {
+    const std::vector<Line<2>> line{{.from = Point<2>(0, 0), .to = Point<2>(1, 0), .single_panel = single_panel}};
     LineIntegral integral;
     line_integrals<2>(*MetricField<2>::from_formula(spike), line, {&integral, 1}, {.panel = 0.1});
     return integral.length;

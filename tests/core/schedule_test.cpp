@@ -1,6 +1,7 @@
 #include "pillowmesh/adapt/schedule.h"
 
 #include <map>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,15 @@ Outcome run(Mesh<2> mesh, Effort effort, const std::vector<VertexId>& mended) {
 }  // namespace
 
 TEST_CASE("effort fast moves vertices that layers have touched, and those of changes, and no others") {
-  const Mesh<2> given = make_grid<2>({16, 16}, Point<2>(0, 0), Point<2>(1, 1));
+  Mesh<2> given = make_grid<2>({16, 16}, Point<2>(0, 0), Point<2>(1, 1));
+  const unsigned seed = 5;
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  for (VertexId v = 0; v < given.vertex_count(); ++v)
+    if (given.support[v].dim == 2)
+      for (int d = 0; d < 2; ++d) given.points[v][d] += 0.03 * (random() / 4294967296.0 - 0.5);
+  INFO(validate(given).message);
+  REQUIRE(validate(given).ok());
   std::vector<VertexId> mended;
   for (VertexId v = 0; v < given.vertex_count(); ++v)
     if (given.points[v].norm() < 0.5) mended.push_back(v);

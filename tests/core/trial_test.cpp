@@ -88,7 +88,7 @@ TEST_CASE("shapes are left as they are where an edge would become too long") {
   }
 }
 
-TEST_CASE("sweeps and mending leave alone what is not touched, and cells that changes touch are swept") {
+TEST_CASE("sweeps and mending leave alone what is not touched, and say what they and changes have moved") {
   for (const auto& [name, given] : corpus::meshes<2>()) {
     INFO(name);
     Mesh<2> mesh = given;
@@ -114,9 +114,28 @@ TEST_CASE("sweeps and mending leave alone what is not touched, and cells that ch
     trial.begin_sweep();
     CHECK(trial.sweep(0, mesh.cell_count()) == 0.0);
     CHECK(corpus::identical(mesh, swept));
+    const auto moved_are_touched = [&] {
+      for (VertexId v = 0; v < static_cast<VertexId>(swept.points.size()); ++v)
+        if (mesh.points[v] != swept.points[v]) CHECK(trial.touched(v));
+    };
+    trial.touch_only(std::vector<VertexId>{some[some.size() / 2]});
+    trial.mend_shapes(0.9);
+    moved_are_touched();
+    LocalSearch search(mesh, trial, 1);
+    for (search.begin_pass(0.2); search.continue_pass(1000);) {}
+    moved_are_touched();
     trial.touch_all();
     CHECK(trial.touched(1));
   }
+}
+
+TEST_CASE("vertices that are not touched have their valences all the same") {
+  Mesh<2> mesh = make_grid<2>({6, 6}, Point<2>(0, 0), Point<2>(1, 1));
+  Background sizes = background(mesh);
+  Trial trial(mesh, sizes, {});
+  trial.touch_only({});
+  Outlook outlook(mesh, trial);
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) CHECK(outlook.valence(v) == trial.ideal(v));
 }
 
 TEST_CASE("no change is kept that leaves a longer edge than is allowed") {
@@ -176,7 +195,7 @@ TEST_CASE("in hot passes crowded cells are only collapsed, in cold ones everythi
     Background sizes = background(mesh);
     Trial trial(mesh, sizes, {});
     LocalSearch search(mesh, trial, 1);
-    search.crowded = crowded;
+    search.crowded_area = crowded;
     search.begin_pass(temperature);
     search.continue_pass(200);
     Tries t{0, 0};
@@ -192,7 +211,7 @@ TEST_CASE("in hot passes crowded cells are only collapsed, in cold ones everythi
   CHECK(cold.all == tries(0.0, 0.0).all);
 }
 
-TEST_CASE("a change that pays after one sweep is kept then, or relaxed once more") {
+TEST_CASE("a change that may be kept at once is relaxed as often as it has to be, and no more") {
   const auto moves = [](int least_sweeps) {
     Mesh<2> mesh = make_grid<2>({12, 12}, Point<2>(0, 0), Point<2>(1, 1));
     Background sizes = background(mesh);

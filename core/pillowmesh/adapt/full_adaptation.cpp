@@ -43,34 +43,35 @@ int halvings_to_come(const Mesh<2>& mesh, const MetricField<2>& field, double id
   return n;
 }
 
-/// Where lengths scatter by a tenth, an error of a fiftieth does not show: circle2d and shock2d are no better with a quarter of
-/// that error. Best takes a quarter where that fits into memory beside the mesh: kinks have three leaves for each quadrilateral then
-/// (shock2d, 58 000 quadrilaterals: 1000 bytes for each, and 610 with half of the leaves; cv .0472 and .0468, eta .961 both times).
+/// Where lengths scatter by a tenth, an error of a fiftieth does not show: circle2d and shock2d are no better with a
+/// quarter of that error. Best takes a quarter while meshes are small. In large ones kinks would have three leaves for each
+/// cell (shock2d, 58 000 cells: 1000 bytes for each, and 610 without; cv .0472 and .0468, eta .961 both times).
 constexpr double kManyCells = 20'000;
 BackgroundOptions background_options(Effort effort, double cells) {
   if (effort == Effort::best && cells < kManyCells) return {.tolerance = 5e-3, .smallest = 0.5};
   return {.tolerance = 2e-2, .smallest = 1.0};
 }
 
-/// Around new cells, and around edges that layers did not reach.
+/// Around new cells, around vertices that layers have moved, and around edges that they did not reach.
 constexpr int kMendedRings = 2;
 
-/// The vertices of cells from `first` on, which layers have made, of edges that may still be too long, and of the cells around.
-std::vector<VertexId> touched_by_layers(const Mesh<2>& mesh, CellId first, const std::vector<std::array<VertexId, 2>>& too_long) {
-  std::vector<unsigned char> near(mesh.points.size(), 0), touched;
-  const auto mark_cells = [&](auto&& which, std::vector<unsigned char>& marks) {
-    for (CellId c = 0; c < mesh.cell_count(); ++c)
-      if (mesh.alive(c) && which(c))
-        for (const VertexId v : mesh.cells[c]) marks[v] = 1;
-  };
-  mark_cells([&](CellId c) { return c >= first; }, near);
+/// The vertices there. \param before the points as they were; new cells are those from `first` on
+std::vector<VertexId> touched_by_layers(const Mesh<2>& mesh, const std::vector<Point<2>>& before, CellId first,
+                                        const std::vector<std::array<VertexId, 2>>& too_long) {
+  std::vector<unsigned char> near(mesh.points.size(), 0);
+  for (CellId c = first; c < mesh.cell_count(); ++c)
+    if (mesh.alive(c))
+      for (const VertexId v : mesh.cells[c]) near[v] = 1;
+  for (std::size_t v = 0; v < before.size(); ++v)
+    if (before[v] != mesh.points[v]) near[v] = 1;
   for (const auto& edge : too_long) near[edge[0]] = near[edge[1]] = 1;
-  touched = near;
-  for (int ring = 0; ring < kMendedRings; ++ring) {
-    const auto at_near = [&](CellId c) { return std::any_of(mesh.cells[c].begin(), mesh.cells[c].end(), [&](VertexId v) { return near[v] != 0; }); };
-    mark_cells(at_near, touched);
-    near = touched;
-  }
+  std::vector<unsigned char> touched = near;
+  for (int ring = 0; ring < kMendedRings; ++ring, near = touched)
+    for (CellId c = 0; c < mesh.cell_count(); ++c) {
+      const Corners<2>& v = mesh.cells[c];
+      if (mesh.alive(c) && (near[v[0]] | near[v[1]] | near[v[2]] | near[v[3]]) != 0)
+        for (const VertexId w : v) touched[w] = 1;
+    }
   std::vector<VertexId> vertices;
   for (VertexId v = 0; v < mesh.vertex_count(); ++v)
     if (touched[v] != 0) vertices.push_back(v);
@@ -103,7 +104,9 @@ bool FullAdaptation::has_enough(const Mesh<2>& mesh) const {
 
 void FullAdaptation::begin(const Mesh<2>& mesh) {
   diced_ = 10 * mesh.cell_count() < 11 * cells_before_layers_;  // a few layers more only have to be mended
-  if (diced_) mended_vertices_ = touched_by_layers(mesh, cells_before_layers_, too_long_);
+  const std::vector<Point<2>> before = std::exchange(points_before_layers_, {});
+  if (diced_ && options_.effort == Effort::fast)
+    mended_vertices_ = touched_by_layers(mesh, before, cells_before_layers_, too_long_);
 }
 
 /// Lookups of the target. A mesh that was diced asks for much of what the coarse one has asked for.
@@ -116,7 +119,8 @@ Background& FullAdaptation::look_up(const Mesh<2>& mesh, const MetricField<2>& t
   if (background_ && background_->is_for(low, high) && background_coarser_ == 2 * coarser()) {
     background_->halve_sizes(target);
   } else if (!background_ || !background_->is_for(low, high) || background_coarser_ != coarser()) {
-    background_ = std::make_unique<Background>(target, low, high, background_options(options_.effort, std::max<double>(ideal_cells_, mesh.cell_count())));
+    background_ = std::make_unique<Background>(
+        target, low, high, background_options(options_.effort, std::max<double>(ideal_cells_, mesh.cell_count())));
   }
   background_coarser_ = coarser();
   return *background_;
@@ -159,6 +163,7 @@ FullAdaptation::Next FullAdaptation::halve(Mesh<2>& mesh, const MetricField<2>& 
 FullAdaptation::Next FullAdaptation::insert_layers(const Mesh<2>& mesh, std::vector<std::array<VertexId, 2>> too_long) {
   too_long_ = std::move(too_long);
   cells_before_layers_ = diced_ ? mesh.cell_count() : 0;
+  if (options_.effort == Effort::fast) points_before_layers_ = mesh.points;
   return Next::layers;
 }
 

@@ -63,7 +63,8 @@ class FullAdaptation {
   bool diced_ = false;  ///< the mesh was made from one that had been adapted: it only has to be mended
   CellId cells_before_layers_ = 0;
   std::vector<std::array<VertexId, 2>> too_long_;
-  std::vector<VertexId> mended_vertices_;  ///< that layers of a mended mesh have touched
+  std::vector<Point<2>> points_before_layers_;  ///< effort fast
+  std::vector<VertexId> mended_vertices_;       ///< effort fast: that layers of a mended mesh have touched
   int mended_ = 0;  ///< how often edges of this mesh had become too long in the end
   std::unique_ptr<Background> background_;
   int background_coarser_ = 1;  ///< whose sizes it has

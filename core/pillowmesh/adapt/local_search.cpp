@@ -68,7 +68,7 @@ bool LocalSearch::interesting(CellId c) {
 
 bool LocalSearch::is_crowded(CellId c) const {
   const auto length = [&](int side) { return 0.5 * (trial_.relocator.edge(c, side).l + trial_.relocator.edge(c, side + 2).l); };
-  return temperature_ > 0.0 && length(0) * length(1) < crowded;
+  return temperature_ > 0.0 && length(0) * length(1) < crowded_area;
 }
 
 /// By how much a change may raise the energy, at the temperature of the pass, when `bonus` more is allowed.

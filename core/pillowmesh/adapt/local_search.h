@@ -29,12 +29,13 @@ class LocalSearch {
   void release();
 
   /// Tries to collapse chords where there is a row too many, and to split those where there is one too few. Chords once
-  /// each, where for each of their cells so much energy may be gained. \return the changes kept. Cost: all chords are walked.
+  /// each, where so much energy may be gained for each of their cells. \return the changes kept. Cost: all chords are
+  /// walked.
   std::int64_t chord_pass(double least_gain);
 
-  /// In hot passes cells with a smaller area than this, the product of their mean metric lengths, are only collapsed: where layers have made
-  /// several times the cells that there are to be, the rest can wait.
-  double crowded = 0.0;
+  /// In hot passes cells with a smaller metric area, the product of their mean lengths, are only collapsed: where layers
+  /// have made several times the cells that there are to be, the rest can wait.
+  double crowded_area = 0.0;
 
  private:
   bool interesting(CellId c);

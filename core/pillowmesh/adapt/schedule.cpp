@@ -16,39 +16,52 @@ constexpr int kNoRows = 1 << 20;
 /// had theirs.
 constexpr CellId kFewCells = 2000, kSomeCells = 10'000;
 
-/// Of a row, for each of its cells, to be tried. Effort fast tries few: those of the coarsest mesh are a tenth of its time, and with fewer
-/// A is nearer to 1 (circle2d .96 to .97, iso2d .98 to .99); with none aniso2d would come to 1.5.
-constexpr double kSomeGain = 0.02, kMuchGain = 0.2;
+/// Effort fast, coarse meshes: rows that gain less are a tenth of the time, for fewer cells than there should be (circle2d .96
+/// of them and .97 without, iso2d .98 and .99). Without any row aniso2d has 1.5 times its cells.
+constexpr double kMuchGain = 0.2;
 
-/// Effort fast, the finest mesh: where changes of topology are tried, and what shapes are mended. A fifteenth of the time; circle2d,
-/// cv .161 to .149, iso2d .142 to .134, its least eta .1 to .5.
+/// Effort fast, the finest mesh: where changes of topology are tried, and what shapes are mended. A fifteenth of the time;
+/// circle2d, cv .161 to .149, iso2d .142 to .134, its least eta .1 to .5.
 constexpr double kMuchEnergy = 0.4, kPoorShape = 0.5;
 
-/// Effort fast: area below which cells are only collapsed (LocalSearch::crowded). A tenth of the moves; with .6 and .8 circle2d comes to .93 and
-/// .90 of its cells for .95.
-constexpr double kCrowded = 0.4;
+/// Effort fast: below this metric area cells are only collapsed in hot passes. A tenth of the moves; with .6 and .8 circle2d
+/// has .93 and .90 of its cells, with this .95.
+constexpr double kCrowdedArea = 0.4;
 
-/// Of a coarse mesh that will be diced, of one that was diced, and of one that layers have made, or that was given. Coarse
-/// meshes are not polished: the finer ones change shapes anyway.
+/// Of a mesh that is only mended where layers were, of a coarse mesh that will be diced, of one that was diced, and of one that
+/// layers have made, or that was given. Coarse meshes are not polished: the finer ones change shapes anyway.
 Budget budget_of(Effort effort, bool diced, int halvings, bool mended) {
   const bool coarse = halvings > 0;
   switch (effort) {
     case Effort::fast:
-      if (mended) return {.cold_passes = 1, .sweeps = 1, .rows_up_to = 0, .least_shape = coarse ? 0.0 : kPoorShape};
-      if (coarse && diced) return {3, 0.25, 0.1, kNoRows, 0, 0, 1, 0, 0, kMuchGain, kFewCells};
-      if (coarse) return {3, 0.15, 0.1, kNoRows, 1, 0, 2, 0, 0, kMuchGain, kFewCells};
-      if (diced) return {.cold_passes = 1, .sweeps = 1, .rows_up_to = 0, .cold_above = kMuchEnergy, .least_shape = kPoorShape};
-      return {.hot_passes = 6, .hot = 0.3, .cool = 0.1, .rows_every = 3, .cold_passes = 2, .sweeps = 5, .relax_sweeps = 4,
-              .settle_sweeps = 2, .rows_up_to = kFewCells, .least_shape = kPoorShape};
+      if (mended) return {.sweeps = 1, .cold_passes = 1, .rows_up_to = 0, .least_shape = coarse ? 0.0 : kPoorShape};
+      if (coarse)
+        return {.sweeps = diced ? 1 : 2, .hot_passes = 3, .hot = diced ? 0.25 : 0.15, .cool = 0.1, .cold_passes = diced ? 0 : 1,
+                .rows_every = kNoRows, .row_gain = kMuchGain, .rows_up_to = kFewCells};
+      if (diced)
+        return {.sweeps = 1, .cold_passes = 1, .cold_above = kMuchEnergy, .rows_up_to = 0, .least_shape = kPoorShape};
+      return {.sweeps = 5, .relax_sweeps = 4, .hot_passes = 6, .hot = 0.3, .cool = 0.1, .cold_passes = 2, .rows_every = 3,
+              .rows_up_to = kFewCells, .settle_sweeps = 2, .least_shape = kPoorShape};
     case Effort::normal:
-      if (coarse) return {4, 0.4, 0.1, kNoRows, 4, 0, 5, 10, 20};
-      if (diced) return {34, 0.31, 0.13, kNoRows, 0, 1, 5, 0, 4};
-      return {30, 0.5, 0.06, 8, 4, 2, 5, 20, 20};
+      if (coarse)
+        return {.sweeps = 5, .relax_sweeps = 10, .hot_passes = 4, .hot = 0.4, .cool = 0.1, .cold_passes = 4,
+                .rows_every = kNoRows, .settle_sweeps = 20};
+      if (diced)
+        return {.sweeps = 5, .hot_passes = 34, .hot = 0.31, .cool = 0.13, .rows_every = kNoRows, .polish_rounds = 1,
+                .settle_sweeps = 4};
+      return {.sweeps = 5, .relax_sweeps = 20, .hot_passes = 30, .hot = 0.5, .cool = 0.06, .cold_passes = 4, .rows_every = 8,
+              .polish_rounds = 2, .settle_sweeps = 20};
     case Effort::best: break;
   }
-  if (coarse) return {15, 0.6, 0.05, kNoRows, 20, 0, 5, 40, 100};
-  if (diced) return {500, 0.4, 0.15, kNoRows, 2, 26, 5, 20, 48, kSomeGain, kSomeCells, 20, 700};
-  return {60, 0.6, 0.05, kNoRows, 20, 6, 5, 40, 100};
+  if (coarse)
+    return {.sweeps = 5, .relax_sweeps = 40, .hot_passes = 15, .hot = 0.6, .cool = 0.05, .cold_passes = 20,
+            .rows_every = kNoRows, .settle_sweeps = 100};
+  if (diced)
+    return {.sweeps = 5, .relax_sweeps = 20, .hot_passes = 500, .hot = 0.4, .cool = 0.15, .hot_moves = 700.0,
+            .cold_passes = 2, .rows_every = kNoRows, .rows_up_to = kSomeCells, .polish_rounds = 26, .warm_rounds = 20,
+            .settle_sweeps = 48};
+  return {.sweeps = 5, .relax_sweeps = 40, .hot_passes = 60, .hot = 0.6, .cool = 0.05, .cold_passes = 20,
+          .rows_every = kNoRows, .polish_rounds = 6, .settle_sweeps = 100};
 }
 
 constexpr int kPassesToBalance = 5, kIterationsToBalance = 12;
@@ -71,7 +84,7 @@ Schedule::Schedule(Mesh<2>& mesh, Background& background, const AdaptOptions& op
       descent_(mesh, trial_.relocator) {
   if (options.effort == Effort::fast) {
     trial_.least_sweeps = 1;
-    search_.crowded = kCrowded;
+    search_.crowded_area = kCrowdedArea;
   }
   if (partial_) trial_.touch_only(mended);
   if (options.record)

@@ -18,17 +18,19 @@ namespace pillowmesh {
 
 /// How much is spent. Temperatures fall geometrically.
 struct Budget {
+  int sweeps = 0, relax_sweeps = 0;  ///< at the beginning: of single vertices; of all at once
   int hot_passes = 0;
   double hot = 0.0, cool = 0.0;
-  int rows_every = 1;  ///< so many hot passes whole rows are removed and doubled
-  int cold_passes = 0, polish_rounds = 0;
-  int sweeps = 0, relax_sweeps = 0, settle_sweeps = 0;  ///< of single vertices at the beginning; of all at once, then and at the end
-  double row_gain = 0.02;      ///< energy that a row is expected to gain, for each of its cells, to be tried
-  CellId rows_up_to = std::numeric_limits<CellId>::max();  ///< cells that the mesh may have for that
-  int warm_rounds = 0;  ///< of the polish: from `cool` to a third of it
   /// For each cell the hot passes may move so many vertices: where sizes turn and kink, passes are longer, and fewer.
   double hot_moves = std::numeric_limits<double>::infinity();
+  int cold_passes = 0;
   double cold_above = 0.0;  ///< energy of the cells that cold passes are for; 0: all
+  int rows_every = 1;       ///< so many hot passes whole rows are removed and doubled; after cold ones always
+  double row_gain = 0.02;   ///< energy that a row is expected to gain, for each of its cells, to be tried
+  CellId rows_up_to = std::numeric_limits<CellId>::max();  ///< cells that the mesh may have for rows
+  int polish_rounds = 0;
+  int warm_rounds = 0;       ///< of those: from `cool` to a third of it
+  int settle_sweeps = 0;     ///< at the end, of all vertices at once
   double least_shape = 0.0;  ///< below it eta is raised at the end, where there is no polish
 };
 
@@ -38,9 +40,11 @@ class Schedule {
  public:
   /// All must outlive it. Cost: linear.
   /// \param diced the mesh was made by dicing an adapted one  \param halvings how often it will be diced afterwards
-  /// \param mended the vertices that layers have touched since the mesh came out of another schedule; empty: all are to be improved
+  /// \param mended vertices that layers have touched since the mesh came out of another schedule: effort fast improves
+  /// nothing else. Empty: all
   Schedule(Mesh<2>& mesh, Background& background, const AdaptOptions& options, bool diced, int halvings,
-           std::span<const VertexId> mended, Recorder<2>& recorder, std::map<std::string, std::int64_t>& operations, int iteration);
+           std::span<const VertexId> mended, Recorder<2>& recorder, std::map<std::string, std::int64_t>& operations,
+           int iteration);
 
   /// A few thousand vertex moves. \return false when all is done.
   bool step();

@@ -64,6 +64,7 @@ void Trial::touch_all() {
 }
 
 void Trial::touch_only(std::span<const VertexId> vertices) {
+  static_assert(kUntouched != kNone, "what Outlook has not seen yet");
   partial_ = true;
   changed_.assign(mesh_.points.size(), kUntouched);
   for (const VertexId v : vertices) changed_[v] = clock_;
@@ -266,9 +267,12 @@ void Trial::mend_shapes(double eta) {
       for (const VertexId v : mesh_.cells[c]) relocator.relocate(v), ++moves;
     relocator.set_shape(before);
     relocator.refresh_changed();
-    if (relocator.longest_changed() <= longest_allowed) continue;
-    journal_.undo();
-    relocator.undo();
+    if (relocator.longest_changed() > longest_allowed) {
+      journal_.undo();
+      relocator.undo();
+    } else if (partial_) {
+      for (const VertexId v : journal_.vertices()) changed_[v] = clock_;
+    }
   }
 }
 

@@ -42,7 +42,7 @@ class Trial {
 
   /// The next sweep is over all vertices again.
   void begin_sweep();
-  /// Relocates the vertices of cells first to last - 1, those that this sweep has not come to yet and that are touched, once.
+  /// Relocates the touched vertices of cells first to last - 1, those that this sweep has not come to yet, once.
   /// \return by how much the energy fell.
   double sweep(CellId first, CellId last);
 
@@ -55,7 +55,8 @@ class Trial {
   [[nodiscard]] Index changed(VertexId v) const { return changed_[v]; }
   Index tick() { return ++clock_; }
   void touch_all();
-  /// From here on sweeps and `mend_shapes` are for these vertices alone, and for what changes.
+  /// From here on sweeps and `mend_shapes` are for these vertices alone, for those of changes that are kept, and for those that are
+  /// mended with them.
   void touch_only(std::span<const VertexId> vertices);
   /// Whether they are for v, too.
   [[nodiscard]] bool touched(VertexId v) const { return !partial_ || changed_[v] != kUntouched; }
@@ -65,8 +66,8 @@ class Trial {
   /// No cell that `attempt` or `mend_shapes` changes may have a longer edge afterwards, whatever it had before.
   double longest_allowed = std::numeric_limits<double>::infinity();
 
-  /// A change is relaxed so often before it may be kept, unless there is nothing left to gain. Once: sooner, and the sweeps that come later have
-  /// more to do.
+  /// A change is relaxed so often before it may be kept, unless there is nothing left to gain. Once: sooner, and sweeps
+  /// that come later have more to do.
   int least_sweeps = 2;
 
   Cavity cavity;
@@ -106,7 +107,7 @@ class Trial {
   std::vector<Index> swept_;
   Index sweep_ = 0;
   std::vector<std::int8_t> ideal_;
-  static constexpr Index kUntouched = -1;
+  static constexpr Index kUntouched = -2;  // no time, and not what stands for none
   std::vector<Index> changed_;
   bool partial_ = false;  ///< some are kUntouched
   Index clock_ = 1;

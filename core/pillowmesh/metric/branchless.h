@@ -1,5 +1,5 @@
-// Logarithm, exponential, hyperbolic tangent, sine and cosine without branches: loops over many numbers are vectorised, where
-// musl's functions go one by one. Only + - * /, a table and moves of bits, so that a result is the same in every build.
+// Logarithm, hyperbolic tangent, sine and cosine without branches and tables: loops over many numbers are vectorised, where
+// musl's functions go one by one. Only + - * / and moves of bits, so that a result is the same in every build.
 //
 // After FreeBSD's msun: Copyright (C) 1993 by Sun Microsystems, Inc. All rights reserved. Permission to use, copy, modify,
 // and distribute this software is freely granted, provided that this notice is preserved.
@@ -14,15 +14,6 @@
 #else
 #define PILLOWMESH_VECTORISED inline
 #endif
-
-extern "C" {
-/// Of musl's exp (core/third_party/musl_math/exp_data.h): powers of 2^(1/128), and what is left of each after rounding.
-struct ExpData {
-  double per_power, to_whole, power_high, power_low, c[4], unused[6];
-  std::uint64_t powers[256];
-};
-extern const ExpData pm__exp_data;
-}
 
 namespace pillowmesh::branchless {
 
@@ -61,22 +52,6 @@ inline double exp_of_positive(double y) {
                                  t * (6.61375632143793436117e-05 + t * (-1.65339022054652515390e-06 + t * 4.13813679705723846039e-08))));
   const double scale = __builtin_bit_cast(double, (__builtin_bit_cast(std::uint64_t, shifted) + 1023) << 52);
   return (1.0 - ((low - r * c / (2.0 - c)) - high)) * scale;
-}
-
-/// e^x for 2^-54 <= |x| < 512, bit for bit what musl's function gives there. [Arm's optimized routines, exp.c]
-inline double exp_of_ordinary(double x) {
-  const ExpData& d = pm__exp_data;
-  const double shifted = d.to_whole + x * d.per_power, k = shifted - d.to_whole;
-  const double r = x + k * d.power_high + k * d.power_low, z = r * r;
-  const std::uint64_t n = __builtin_bit_cast(std::uint64_t, shifted);
-  const double tail = __builtin_bit_cast(double, d.powers[2 * (n % 128)]);
-  const double scale = __builtin_bit_cast(double, d.powers[2 * (n % 128) + 1] + (n << 45));
-  return scale + scale * (tail + r + z * (d.c[0] + r * d.c[1]) + z * z * (d.c[2] + r * d.c[3]));
-}
-/// Whether it is not for x.
-inline bool not_ordinary(double x) {
-  const double size = x < 0.0 ? -x : x;
-  return !((size >= 0x1p-54) & (size < 512.0));
 }
 
 /// Within 2 ulp. [Cephes, tanh.c, S. Moshier]

@@ -9,27 +9,30 @@ namespace {
 #define PILLOWMESH_SIZE_ALONG_X \
   "if(x <= 2, 1 - 19*x/40, if(x <= 3.5, 20^((2*x - 7)/3), if(x <= 5, 5^((7 - 2*x)/3), 1/5 + (x - 5)^4/20)))"
 
-// The Hessian H of tanh(20 z), z = x - sin(3 y) / 2, at nine points (x + A, y + B) with A and B of 0 and 0.01: |H| / 0.02, its
-// eigenvalues limited to sizes from 0.003 to 0.15, and of the logarithms the mean with weights of 4, 2 and 1, which is
+// H / 0.02 at nine points, (x, y) and 0.01 beside it, H the Hessian of tanh(20 z), z = x - sin(3 y) / 2: its eigenvalues
+// without sign, limited to those of sizes from 0.15 to 0.003, and of the logarithms the mean with weights of 4, 2 and 1,
 // a I + (b c; c -b).
 //
-// With w = 1 / (1 + exp(40 z)), d = w (1 - w) and e = (2 w - 1) d: H / 0.02 = 80000 e (1 v; v v^2) + 18000 d sin(3 y) (0 0; 0 1),
-// v = -1.5 cos(3 y). Nine tanh would take longer than exp(40 x) and three exp(-20 sin(3 y)).
+// With w = 1 / (1 + exp(40 z)), d = w (1 - w), e = (2 w - 1) d and v = -1.5 cos(3 y):
+// H / 0.02 = 160000 e (1 v; v v^2) + 18000 d sin(3 y) (0 0; 0 1) = s I + (b c; c -b).
+// To evaluate tanh nine times would take longer than exp(40 x) and exp(-20 sin(3 y)) in three rows.
 
-/// Of a row of three points: of its sine and cosine what takes e and d to the entries of H.
-#define PILLOWMESH_SHOCK_ROW(R, SINE, COSINE)                                                    \
-  "p" R " = " SINE ";\no" R " = " COSINE ";\nz" R " = exp(-20*p" R ");\nq" R " = 180000*o" R      \
-  "^2;\ns" R " = 80000 + q" R ";\nf" R " = 80000 - q" R ";\nv" R " = 9000*p" R ";\nt" R " = -240000*o" R ";\n"
+/// Of a row of three points: what takes e and d to s, b and c.
+#define PILLOWMESH_SHOCK_ROW(R, SINE, COSINE)                                                                         \
+  "p" R " = " SINE ";\no" R " = " COSINE ";\nz" R " = exp(-20*p" R ");\nq" R " = 180000*o" R "^2;\n"                  \
+  "s" R " = 80000 + q" R ";\nf" R " = 80000 - q" R ";\nv" R " = 9000*p" R ";\nt" R " = -240000*o" R ";\n"
 
-/// Of point N of row R, where exp(40 x) is U: the eigenvalues k and l as they are limited, and the difference of their logarithms times
-/// the direction (b, c).
-#define PILLOWMESH_SHOCK_AT(N, R, U)                                                                                             \
-  "w" N " = 1/(1 + " U "*z" R ");\nd" N " = w" N "*(1 - w" N ");\ne" N " = (2*w" N " - 1)*d" N ";\ni" N " = v" R "*d" N             \
-  ";\ns" N " = s" R "*e" N " + i" N ";\nb" N " = f" R "*e" N " - i" N ";\nc" N " = t" R "*e" N ";\ng" N " = sqrt(b" N "^2 + c" N  \
-  "^2) + 1e-30;\nk" N " = min(max(abs(s" N " + g" N "), 1/0.15^2), 1/0.003^2);\nl" N " = min(max(abs(s" N " - g" N               \
-  "), 1/0.15^2), 1/0.003^2);\nn" N " = log(k" N "/l" N ")/g" N ";\n"
-#define PILLOWMESH_SHOCK_MEAN(X)                                                                                          \
-  X " = 0.03125*(4*n1*" X "1 + 2*(n2*" X "2 + n3*" X "3 + n4*" X "4 + n5*" X "5) + n6*" X "6 + n7*" X "7 + n8*" X "8 + n9*" X "9);\n"
+/// Of point N of row R, where exp(40 x) is U: s, b, c, the limited eigenvalues k and l, and n, by which b and c are to be
+/// multiplied for their logarithms.
+#define PILLOWMESH_SHOCK_AT(N, R, U)                                                                                  \
+  "w" N " = 1/(1 + " U "*z" R ");\nd" N " = w" N "*(1 - w" N ");\ne" N " = (2*w" N " - 1)*d" N ";\n"                  \
+  "i" N " = v" R "*d" N ";\ns" N " = s" R "*e" N " + i" N ";\nb" N " = f" R "*e" N " - i" N ";\nc" N " = t" R "*e" N ";\n"\
+  "g" N " = sqrt(b" N "^2 + c" N "^2) + 1e-30;\n"                                                                     \
+  "k" N " = min(max(abs(s" N " + g" N "), 1/0.15^2), 1/0.003^2);\n"                                                   \
+  "l" N " = min(max(abs(s" N " - g" N "), 1/0.15^2), 1/0.003^2);\nn" N " = log(k" N "/l" N ")/g" N ";\n"
+#define PILLOWMESH_SHOCK_MEAN(X)                                                                                      \
+  X " = 0.03125*(4*n1*" X "1 + 2*(n2*" X "2 + n3*" X "3 + n4*" X "4 + n5*" X "5)"                                     \
+    " + n6*" X "6 + n7*" X "7 + n8*" X "8 + n9*" X "9);\n"
 
 // In Eqs. (8) and (12) the paper prints |1-r|; its circle and sphere have radius 0.5, and its tables come from |0.5-r|.
 constexpr Case kCases[] = {

@@ -65,7 +65,7 @@ class LineIntegrator {
       std::swap(at_a, at_b);
     }
     const Point<Dim> vector = *b - *a;
-    const int panels = line.smooth ? 1 : panel_count(std::sqrt(vector.squaredNorm()), options_.panel);
+    const int panels = line.single_panel ? 1 : panel_count(std::sqrt(vector.squaredNorm()), options_.panel);
     const int known = at_a != nullptr ? 1 : 0;  // at each end
     const double step = 0.25 / panels;
     samples_.add(*a, vector, known * step, step, 4 * panels + 1 - 2 * known);

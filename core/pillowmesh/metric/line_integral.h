@@ -13,7 +13,7 @@ struct Line {
   Point<Dim> from, to;
   /// The metric at the ends where it is known, of both or of none: lines that meet need not ask for it again.
   const SymTensor<Dim> *at_from = nullptr, *at_to = nullptr;
-  bool smooth = false;  ///< one panel is enough, however long it is
+  bool single_panel = false;  ///< however long it is
 };
 
 struct LineIntegral {

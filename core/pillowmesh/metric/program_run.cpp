@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "pillowmesh/mesh/wide.h"
 #include "pillowmesh/metric/branchless.h"
@@ -56,18 +57,44 @@ void map_turns(double* out, const double* a, int n, F, Exact exact) {
   map(out, a, n, exact);  // two numbers at a time are not worth the size of the loops
 }
 #else
+// The table of musl's exp (core/third_party/musl_math/exp_data.h): powers of 2^(1/128), and what each lacks.
+extern "C" {
+extern const struct ExponentialTable {
+  double per_power, to_whole, power_high, power_low, c[4], unused[6];
+  std::uint64_t powers[256];
+} pm__exp_data;
+}
+
+// Whether ordinary_exp is not for x.
+bool not_ordinary(double x) {
+  const double size = x < 0.0 ? -x : x;
+  return !((size >= 0x1p-54) & (size < 512.0));
+}
+
+// e^x, bit for bit what musl's function gives where it has no branch to take.
+// After Arm's optimized routines, exp.c: Copyright (c) 2018, Arm Limited. SPDX-License-Identifier: MIT
+PILLOWMESH_LANES double ordinary_exp(double x) {
+  const ExponentialTable& t = pm__exp_data;
+  const double shifted = t.to_whole + x * t.per_power, k = shifted - t.to_whole;
+  const double r = x + k * t.power_high + k * t.power_low, z = r * r;
+  const std::uint64_t n = __builtin_bit_cast(std::uint64_t, shifted);
+  const double tail = __builtin_bit_cast(double, t.powers[2 * (n % 128)]);
+  const double scale = __builtin_bit_cast(double, t.powers[2 * (n % 128) + 1] + (n << 45));
+  return scale + scale * (tail + r + z * (t.c[0] + r * t.c[1]) + z * z * (t.c[2] + r * t.c[3]));
+}
+
 PILLOWMESH_LANES void map_exponential(double* __restrict out, const double* a, int n) {
   for (int i = 0; i < n; i += kGroup) {
     std::array<double, kGroup> x;
     double doubts = 0.0;
     for (int k = 0; k < kGroup; ++k) {
       x[k] = a[i + k];
-      out[i + k] = branchless::exp_of_ordinary(x[k]);
-      doubts += branchless::not_ordinary(x[k]) ? 1.0 : 0.0;
+      out[i + k] = ordinary_exp(x[k]);
+      doubts += not_ordinary(x[k]) ? 1.0 : 0.0;
     }
     if (doubts == 0.0) continue;
     for (int k = 0; k < kGroup; ++k)
-      if (branchless::not_ordinary(x[k])) out[i + k] = portable::exp(x[k]);
+      if (not_ordinary(x[k])) out[i + k] = portable::exp(x[k]);
   }
 }
 /// f of quarter turns; where those are doubtful `exact`, of the number.

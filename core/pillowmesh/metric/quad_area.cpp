@@ -178,8 +178,6 @@ Found areas_by_lines(const CornerPoints<2>& quad, const QuadLines& lines, const 
                     const VolumeOptions& options) {
   const std::array<Rim, 4> rim = rims(lines);
   bool good = true, high = false;
-  const bool short_sides = std::max({lines.s01.length, lines.s02.length, lines.s13.length, lines.s23.length}) < kShortEdge;
-  const double panel = short_sides ? 2.0 * options.panel : options.panel;
   for (int k = 0; k < 4; ++k) {
     const Point<2> a = quad[kNext[k][0]] - quad[k], b = quad[kNext[k][1]] - quad[k];
     const double twice = cross(a, b);
@@ -188,7 +186,7 @@ Found areas_by_lines(const CornerPoints<2>& quad, const QuadLines& lines, const 
     const double longest = std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()});
     areas[k] = 0.5 * twice * mean;
     good = good && !(std::fabs(mean - rougher) > 3.0 * options.tolerance * mean);
-    high = high || (panel > 0.0 && twice * twice > panel * panel * longest);
+    high = high || (options.panel > 0.0 && twice * twice > options.panel * options.panel * longest);
   }
   return high ? Found::high : (good ? Found::good : Found::rough);
 }

@@ -25,12 +25,9 @@ struct QuadLines {
   LineIntegral s01, s02, s13, s23, d03, d12;
 };
 
-/// Metric length. Where all edges of a cell are shorter little is to be expected inside of it that is much narrower.
-inline constexpr double kShortEdge = 2.0;
-
 /// The same areas to about the tolerance, where sides and diagonals have been integrated: four evaluations for each
 /// quadrilateral, by a rule of degree 3 that takes the means over the sides of a triangle and its centroid. Where a rule of
-/// degree 2 differs from it by more than three tolerances, as above, in panels only where a triangle is higher than one, or than two where all sides are short.
+/// degree 2 differs from it by more than three tolerances, as above, in panels only where a triangle is higher than one.
 /// \pre lines.size() == quads.size()
 void quad_areas(const MetricField<2>& field, std::span<const CornerPoints<2>> quads, std::span<const QuadLines> lines,
                 std::span<CornerAreas> areas, const VolumeOptions& options = {});

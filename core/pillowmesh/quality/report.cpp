@@ -22,8 +22,9 @@
 namespace pillowmesh {
 namespace {
 
-/// Of the panel that misses nothing wider than a thousandth of the domain. Quadrilaterals are measured in less time than it would take
-/// to look that closely: edges of cells that are as small as a feature asks for are shorter than a panel anyway.
+/// In units of the panel that misses nothing wider than a thousandth of the domain. The cells of an adapted mesh are as small
+/// as the features there ask for, and their edges shorter than a panel; on other meshes to look that closely takes most
+/// of the time.
 template <int Dim>
 constexpr double kPanel = Dim == 2 ? 2.0 : 1.0;
 
@@ -89,10 +90,8 @@ void measure_cells(const Mesh<Dim>& mesh, const MetricField<Dim>& field, std::sp
   report.scaled_jacobian_mean = jacobian.mean;
 }
 
-}  // namespace
-
 template <int Dim>
-Report measure(const Mesh<Dim>& mesh, const MetricField<Dim>& field, bool volumes) {
+Report measure_all(const Mesh<Dim>& mesh, const MetricField<Dim>& field, bool volumes) {
   Report report;
   report.dim = Dim;
   for (const CellId c : mesh.vertex_cell) report.vertices += c != kNone ? 1 : 0;
@@ -115,6 +114,18 @@ Report measure(const Mesh<Dim>& mesh, const MetricField<Dim>& field, bool volume
     report.complexity = complexity(mesh, field, VolumeOptions::for_panel(3, options.panel, 3e-4 * many));
   }
   return report;
+}
+
+}  // namespace
+
+template <int Dim>
+Report measure(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
+  return measure_all(mesh, field, true);
+}
+
+template <int Dim>
+Report measure_lengths_and_shapes(const Mesh<Dim>& mesh, const MetricField<Dim>& field) {
+  return measure_all(mesh, field, false);
 }
 
 // VmHWM rather than getrusage where there is /proc: Linux counts in the latter what the process held before it became
@@ -144,7 +155,9 @@ std::int64_t peak_memory_bytes() {
   return 0;
 }
 
-template Report measure<2>(const Mesh<2>&, const MetricField<2>&, bool);
-template Report measure<3>(const Mesh<3>&, const MetricField<3>&, bool);
+template Report measure<2>(const Mesh<2>&, const MetricField<2>&);
+template Report measure<3>(const Mesh<3>&, const MetricField<3>&);
+template Report measure_lengths_and_shapes<2>(const Mesh<2>&, const MetricField<2>&);
+template Report measure_lengths_and_shapes<3>(const Mesh<3>&, const MetricField<3>&);
 
 }  // namespace pillowmesh

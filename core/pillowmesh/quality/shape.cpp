@@ -12,6 +12,9 @@
 namespace pillowmesh {
 namespace {
 
+/// Metric length. Where all edges of a cell are shorter its diagonals are, too, and have no need of panels.
+constexpr double kShortEdge = 2.0;
+
 template <int Dim>
 Line<Dim> line_between(const Mesh<Dim>& mesh, const std::vector<SymTensor<Dim>>& at_vertices, VertexId a, VertexId b) {
   return {mesh.points[a], mesh.points[b], &at_vertices[a], &at_vertices[b]};
@@ -72,7 +75,7 @@ class SimplexEdges {
           keys_.push_back({key(a, b), i * kPerCell + j});
         }
       }
-      for (std::size_t d = first; d < lines_.size(); ++d) lines_[d].smooth = longest < kShortEdge;
+      for (std::size_t d = first; d < lines_.size(); ++d) lines_[d].single_panel = longest < kShortEdge;
     }
     if constexpr (Dim == 3) {
       // Neighbouring cells and corners share diagonals: each is integrated once.

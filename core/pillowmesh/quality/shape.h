@@ -44,8 +44,8 @@ EdgeIntegrals<Dim> edge_integrals(const Mesh<Dim>& mesh, const MetricField<Dim>&
 /// eta of each of `cells`, the least over its 2^Dim corner simplices. Points and cells are all of the mesh that is needed.
 /// \param flat out: with flat simplices. \pre flat.size() == cells.size()
 /// \param integral out: with the integral of sqrt(det M) over the corner simplices, to 0.3 %; may be empty.
-/// \param options how edges are integrated; diagonals with panels twice (3D: four times) as long, or one where
-/// all edges of the cell are short (kShortEdge).
+/// \param options how edges are integrated; diagonals with panels twice (3D: four times) as long, in 2D with one where all
+/// edges of the cell are shorter than 2 in the metric.
 /// \param known what edge_integrals found of these cells with the same options; null: that is done here.
 /// \param area 2D, with `integral`: the metric areas of the cells are added to it; may be null.
 template <int Dim>
