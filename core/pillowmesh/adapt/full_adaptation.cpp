@@ -1,6 +1,7 @@
 #include "pillowmesh/adapt/full_adaptation.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "pillowmesh/adapt/halving.h"
@@ -26,10 +27,13 @@ constexpr double kMuchTooLong = 1.4;
 /// moves a cell from about as many cells as were given, cv .16; 22 from four times as many, cv .14.
 constexpr double kFewTimes = 2.0;
 
-/// Effort normal: a coarse mesh with this share of the cells that it is to have needs no more layers. Where these go through the
-/// whole mesh for a few long edges, the next would make several times as many cells, and to take them out takes time (shock2d:
-/// 120 moves a cell for 150).
-constexpr double kEnough = 0.9;
+/// A coarse mesh with so many of the cells that it is to have needs no more layers. Where these go through the whole mesh
+/// for a few long edges, the next would make several times as many cells, and to take them out takes time (shock2d, normal:
+/// 120 moves a cell for 150). Best takes the rows that the last layers make.
+double enough(Effort effort) {
+  if (effort == Effort::fast) return 2.0;
+  return effort == Effort::normal ? 0.9 : std::numeric_limits<double>::infinity();
+}
 
 /// How often sizes can be doubled until edges are about as long as they are asked to be; fast, until cells are about as many.
 int halvings_to_come(const Mesh<2>& mesh, const MetricField<2>& field, double ideal, const AdaptOptions& options) {
@@ -97,9 +101,8 @@ FullAdaptation::FullAdaptation(const Mesh<2>& mesh, const MetricField<2>& field,
       halvings_(halvings_to_come(mesh, field, ideal_cells_, options)) {}
 
 bool FullAdaptation::has_enough(const Mesh<2>& mesh) const {
-  // Best takes the rows that the last layers make; fast begins so coarse that there are few.
-  if (halvings_ == 0 || options_.effort != Effort::normal) return false;
-  return static_cast<double>(live_cells(mesh).size()) >= kEnough * ideal_cells_ / (coarser() * coarser());
+  return halvings_ > 0 &&
+         static_cast<double>(live_cells(mesh).size()) >= enough(options_.effort) * ideal_cells_ / (coarser() * coarser());
 }
 
 void FullAdaptation::begin(const Mesh<2>& mesh) {

@@ -20,16 +20,11 @@ constexpr int kMostExcessOpened = 4;  ///< an opening among regular vertices mak
 constexpr int kRefusedAtLarge = 3;    ///< rows that the whole mesh was relocated for in vain
 constexpr double kNoise = 0.001;      ///< a gain smaller than this is none
 constexpr double kPoorCell = 0.1;     ///< energy above which a cell is looked at
-/// What a cell is worth beyond its energy. An opening is relaxed from a sliver and judged too early more often than a
-/// collapse; without this the search loses cells. Opening and collapsing again cannot go on for ever: what one may cost
-/// the other must gain.
-constexpr double kCellBonus = 0.15;
-
 /// Part of a row comes or goes in one change where up to so many cells are too wide or too narrow together; more are hardly
 /// ever kept. Each of its cells is worth more than one alone, as the whole row is judged early or not at all. Tried at this
 /// share of the cells: at all of them it takes a third of the time for nothing more.
 constexpr int kLongestPart = 4;
-constexpr double kPartBonus = 0.3, kShareOfParts = 0.3;
+constexpr double kShareOfParts = 0.3;
 
 /// Logarithm of the odds below which a change is not tried, when hot and when cold.
 constexpr double kLeastOdds = -2.2, kLeastOddsCold = -3.5;
@@ -162,7 +157,7 @@ void LocalSearch::try_collapses(CellId c) {
     const int excess =
         square(a + b - 2 - ideal) - square(a - 4) - square(b - ideal) + outlook_.excess(x, -1) + outlook_.excess(y, -1);
     if (excess > kMostExcess) continue;
-    const double allowed = allowance(-kCellBonus);
+    const double allowed = allowance(-cell_bonus);
     if (hopeless(outlook_.collapse(c, i, excess, allowed)) || !plan_diagonal_collapse(mesh_, c, i, trial_.cavity)) continue;
     if (attempt(Operator::collapse, allowed)) return;
   }
@@ -185,7 +180,7 @@ void LocalSearch::try_openings(CellId c) {
         const int excess =
             square(n - turned - 3) + square(turned - 3) - square(n - 4) + outlook_.excess(a, 1) + outlook_.excess(b, 1);
         if (excess > kMostExcessOpened) continue;
-        const double allowed = allowance(kCellBonus);
+        const double allowed = allowance(cell_bonus);
         if (hopeless(outlook_.opening(star, first, last, excess, allowed)) ||
             !plan_opening(mesh_, v, star, first, last, trial_.cavity))
           continue;
@@ -207,7 +202,7 @@ void LocalSearch::try_boundary_collapses(CellId c) {
         kMostExcess)
       continue;
     if (!plan_boundary_collapse(mesh_, v, trial_.cavity)) continue;
-    if (attempt(Operator::boundary_collapse, allowance(-kCellBonus))) return;
+    if (attempt(Operator::boundary_collapse, allowance(-cell_bonus))) return;
   }
 }
 
@@ -227,7 +222,7 @@ void LocalSearch::try_boundary_openings(CellId c) {
           kMostExcess)
         continue;
       if (!plan_boundary_opening(mesh_, c, i, turned == 1, trial_.cavity)) continue;
-      if (attempt(Operator::boundary_open, allowance(kCellBonus))) return;
+      if (attempt(Operator::boundary_open, allowance(cell_bonus))) return;
     }
   }
 }
@@ -244,7 +239,7 @@ void LocalSearch::try_partial_collapses(CellId c, int side) {
     for (int way = 0; way < 2 && cells > 1; ++way) {
       const int excess = outlook_.excess(way == 0 ? left : right, -1) + outlook_.excess(around(mesh_, at, side + 2 + way), -1) + 2;
       if (excess > kMostExcess) continue;
-      const double allowed = allowance(-kPartBonus * cells);
+      const double allowed = allowance(-2.0 * cell_bonus * cells);
       if (hopeless(Outlook::partial_collapse(cells, excess, allowed, rungs / (cells - 1), sides / cells)) ||
           !plan_partial_chord_collapse(mesh_, part_, way, trial_.cavity))
         continue;
@@ -275,7 +270,7 @@ void LocalSearch::try_partial_splits(CellId c, int side) {
     const int edges = static_cast<int>(path_.size()) - 1;
     const int excess = outlook_.excess(path_.front(), 1) + outlook_.excess(path_.back(), 1) + 2;
     for (int way = 0; way < 2 && edges > 2 && excess <= kMostExcess; ++way) {
-      const double allowed = allowance(kPartBonus * (edges - 1));
+      const double allowed = allowance(2.0 * cell_bonus * (edges - 1));
       if (hopeless(Outlook::partial_split(edges, excess, allowed, across / (edges - 1), along / edges)) ||
           !plan_partial_chord_split(mesh_, path_, way, trial_.cavity))
         continue;

@@ -11,7 +11,7 @@ namespace pillowmesh {
 
 /// Tries rotations, collapses and openings, inside and at the boundary, around irregular vertices and badly sized cells, at
 /// a temperature: a change that raises the energy by dE is kept with the probability exp(-dE / T) (Metropolis), where a
-/// cell more counts as a little less energy, at any temperature (kCellBonus). At T = 0 only where something has changed
+/// cell more counts as a little less energy, at any temperature (cell_bonus). At T = 0 only where something has changed
 /// since a cell was last looked at.
 class LocalSearch {
  public:
@@ -33,6 +33,10 @@ class LocalSearch {
   /// walked.
   std::int64_t chord_pass(double least_gain);
 
+  /// What a cell is worth beyond its energy; twice that in part of a row. An opening is relaxed from a sliver and judged too
+  /// early more often than a collapse; without this the search loses cells. Opening and collapsing again cannot go on for
+  /// ever: what one may cost the other must gain.
+  double cell_bonus = 0.15;
   /// In hot passes cells with a smaller metric area, the product of their mean lengths, are only collapsed: where layers
   /// have made several times the cells that there are to be, the rest can wait.
   double crowded_area = 0.0;
