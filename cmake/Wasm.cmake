@@ -7,8 +7,8 @@
 # The page downloads this: what is not hot is compiled for size. Link-time optimisation takes another eighth off, and
 # -Oz at the link keeps it from undoing the rest; the hot code keeps the speed of the -O2 that it is compiled with.
 string(JOIN "|" hot
-  "refine/(buffer_layer|edge_tags|hull|layer|tag_inheritance|vertex_copies)" "smooth/"
-  "metric/(background|program_run|field|length_tags|volume)" "adapt/(outlook|tagging)" "mesh/(foot|slide|topology)")
+  "refine/(buffer_layer|hull|layer|vertex_copies)" "smooth/"
+  "metric/(background|program_run|field|volume)" "adapt/(outlook|tagging)" "mesh/(foot|slide|topology)")
 # The modules for hexahedra and for metrics have room for more. What is listed here is compiled once more for them: of an
 # inline function that was not inlined, the linker keeps one copy for all callers, and it may be one from a source
 # compiled with -Oz. (Making the metric of the portrait took 22 s without, most of it in one-line accessors.)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pillowmesh/mesh/jacobian.h"
+#include "pillowmesh/mesh/overlap.h"
 #include "pillowmesh/mesh/slide.h"
 #include "pillowmesh/refine/dice.h"
 
@@ -50,7 +51,9 @@ struct Pieces {
 bool valid(const Mesh<2>& mesh, CellId c) {
   for (int piece = 0; piece < 4; ++piece)
     if (!(min_scaled_jacobian(mesh, 4 * c + piece) > 0.0)) return false;
-  return true;
+  const Pieces p(mesh, c);
+  const auto folded = [&](VertexId v) { return mesh.support[v].dim < 2 && folded_at(mesh, v); };
+  return std::none_of(p.corner.begin(), p.corner.end(), folded) && std::none_of(p.middle.begin(), p.middle.end(), folded);
 }
 
 }  // namespace
@@ -90,7 +93,7 @@ Status halve_sizes(Mesh<2>& mesh, const MetricField<2>& field) {
                             v * ((1 - u) * mesh.points[p.corner[2]] + u * mesh.points[p.corner[3]]);
   }
 
-  // Cells that this turned inside out are divided evenly, and so their neighbours in part.
+  // Cells that this turned inside out, or laid over others, are divided evenly, and so their neighbours in part.
   for (bool again = true; again;) {
     again = false;
     for (CellId c = 0; c < old_cells; ++c) {

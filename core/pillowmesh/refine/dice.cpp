@@ -1,6 +1,7 @@
 #include "pillowmesh/refine/dice.h"
 
 #include "pillowmesh/mesh/jacobian.h"
+#include "pillowmesh/mesh/overlap.h"
 #include "pillowmesh/mesh/slide.h"
 #include "pillowmesh/mesh/topology.h"
 
@@ -190,9 +191,15 @@ Status dice(Mesh<Dim>& mesh, int n) {
     }
   if (Status s = connect_cells(out); !s.ok()) return s;
   for (const Patch& p : patches) out.twins[p.cell][p.facet] = ~p.patch;
+  out.geometry = mesh.geometry;
+  if constexpr (Dim == 2) {  // where an edge spans a corner of its curve, the vertex in its middle may lie beyond its neighbours
+    OrderedStar star;
+    for (VertexId v = 0; v < out.vertex_count(); ++v)
+      if (out.support[v].dim < 2 && find_star(out, v, star) && overlaps(out, v, star))
+        return Status::illegal("the pieces at vertex " + std::to_string(v) + " would overlap");
+  }
   out.patch_groups = std::move(mesh.patch_groups);
   out.region_groups = std::move(mesh.region_groups);
-  out.geometry = mesh.geometry;
   mesh = std::move(out);
   return {};
 }
