@@ -46,7 +46,8 @@ class Trial {
   /// \return by how much the energy fell.
   double sweep(CellId first, CellId last);
 
-  /// Relocates the vertices of touched cells with an eta below this a few times, for their shapes. Cost: linear, without what moves.
+  /// Relocates the vertices of touched cells with an eta below this a few times, for their shapes. Cost: linear, without
+  /// what moves.
   void mend_shapes(double eta);
 
   /// Cells that a vertex should have: 4 inside, 2 on a curve, at a corner as many as fill it with right angles.
@@ -55,8 +56,8 @@ class Trial {
   [[nodiscard]] Index changed(VertexId v) const { return changed_[v]; }
   Index tick() { return ++clock_; }
   void touch_all();
-  /// From here on sweeps and `mend_shapes` are for these vertices alone, for those of changes that are kept, and for those that are
-  /// mended with them.
+  /// From here on sweeps and `mend_shapes` are for these vertices alone, for those of changes that are kept, and for those
+  /// that are mended with them.
   void touch_only(std::span<const VertexId> vertices);
   /// Whether they are for v, too.
   [[nodiscard]] bool touched(VertexId v) const { return !partial_ || changed_[v] != kUntouched; }
