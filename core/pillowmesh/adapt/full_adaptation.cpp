@@ -17,7 +17,9 @@
 namespace pillowmesh {
 namespace {
 
-constexpr int kMostMended = 2;
+/// Rounds of layers for edges that have become too long. Four meet a fifth of the runs that two do not (coarse rings with
+/// steep sizes); with effort best a round takes too long for that.
+int most_mended(Effort effort) { return effort == Effort::best ? 2 : 4; }
 
 /// Times the threshold: a coarse mesh with a longer edge than that has lost cells that finer ones would not find again.
 constexpr double kMuchTooLong = 1.4;
@@ -143,7 +145,7 @@ FullAdaptation::Next FullAdaptation::step(Mesh<2>& mesh, const MetricField<2>& f
   const double limit = halvings_ > 0 ? kMuchTooLong * options_.threshold : options_.threshold * (1.0 + kLongestEdgeTolerance);
   std::vector<std::array<VertexId, 2>> too_long = longer_edges(mesh, target, limit, touched);
   const bool met = too_long.empty();
-  if (!met && mended_++ < kMostMended) return insert_layers(mesh, std::move(too_long));
+  if (!met && mended_++ < most_mended(options_.effort)) return insert_layers(mesh, std::move(too_long));
   if (halvings_ > 0) return halve(mesh, field, iteration);
   outcome_ = met ? Status{} : Status::limit_not_met("edges longer than the threshold remain");
   background_.reset();
