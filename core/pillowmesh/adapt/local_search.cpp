@@ -20,6 +20,7 @@ constexpr int kMostExcessOpened = 4;  ///< an opening among regular vertices mak
 constexpr int kRefusedAtLarge = 3;    ///< rows that the whole mesh was relocated for in vain
 constexpr double kNoise = 0.001;      ///< a gain smaller than this is none
 constexpr double kPoorCell = 0.1;     ///< energy above which a cell is looked at
+
 /// Part of a row comes or goes in one change where up to so many cells are too wide or too narrow together; more are hardly
 /// ever kept. Each of its cells is worth more than one alone, as the whole row is judged early or not at all. Tried at this
 /// share of the cells: at all of them it takes a third of the time for nothing more.

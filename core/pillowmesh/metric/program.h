@@ -18,7 +18,8 @@ inline constexpr int kLanes = 64;
 using Lanes = std::array<double, kLanes>;
 
 /// Straight-line code over registers of kLanes numbers. Both sides of an `if` are code; a side that no point of the
-/// batch needs is jumped over when it is worth a jump. An instruction is one operation, or two of arithmetic. Immutable, safe to run from several threads.
+/// batch needs is jumped over when it is worth a jump. An instruction is one operation, or two of arithmetic. Immutable,
+/// safe to run from several threads.
 class Program {
  public:
   /// Code for the values `outputs` of `graph`, and for nothing else.
